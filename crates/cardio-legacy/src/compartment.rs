@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::deck::Deck;
 
-/// The reconstruction that travels with the crate.
+/// Built-in reconstruction of the compartment.
 const RECONSTRUCTION: &str = include_str!("compartment.toml");
 const POINTS: u32 = 22;
 const SURFACES: u32 = 25;
@@ -22,7 +22,7 @@ pub struct CompartmentLayout {
     pub(crate) wheel: WheelLayout,
 }
 
-/// One planar surface; either `edge` or `corners`.
+/// A planar surface; either `edge` or `corners`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SurfaceLayout {
@@ -39,7 +39,7 @@ struct SurfaceLayout {
 pub struct Wall {
     /// The card's variable of its half width, VCW or VRW.
     pub half_width: &'static str,
-    /// Whether it lies to the left, where Y is negative.
+    /// Whether it is on the left, at negative Y.
     pub is_left: bool,
 }
 
@@ -64,11 +64,11 @@ pub(crate) struct WheelLayout {
     pub number: u32,
     /// Name of the surface.
     pub name: String,
-    /// The point by which its centre lies.
+    /// Point that gives its centre.
     pub point: u32,
-    /// How far its centre lies behind that point, in.
+    /// Distance of its centre behind that point, in.
     pub behind_in: f64,
-    /// How far it lies below that point, in; level with it if absent.
+    /// Distance of its centre below that point, in; 0 if absent.
     #[serde(default)]
     pub below_in: f64,
     /// Tilt of its plane from vertical, degrees; it faces rearward and up.
@@ -89,30 +89,30 @@ pub struct Corner {
     pub wall: Wall,
 }
 
-/// A surface with its corners counter-clockwise as seen from its open side.
+/// A surface with its corners counter-clockwise seen from its open side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
     /// Number in series 9.
     pub number: u32,
     /// Name in scenarios.
     pub name: String,
-    /// Its corners; none if the deck's points leave it without area.
+    /// Its corners; none if the deck's points give it no area.
     pub corners: Vec<Corner>,
 }
 
-/// A surface of a deck that a conversion leaves out.
+/// A surface of a deck that a conversion omits.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LeftOut {
     /// Number in series 9.
     pub number: u32,
     /// Name in scenarios.
     pub name: String,
-    /// Why, as the predicate of a sentence about it.
+    /// Reason, as the predicate of a sentence about it.
     pub why: &'static str,
 }
 
 impl WheelLayout {
-    /// Where it is, as text.
+    /// Its position, as text.
     pub(crate) fn words(&self) -> String {
         let height = match self.below_in {
             0.0 => "level with it".to_owned(),
@@ -124,7 +124,7 @@ impl WheelLayout {
 }
 
 impl CompartmentLayout {
-    /// The reconstruction that travels with the crate.
+    /// Built-in reconstruction.
     ///
     /// # Errors
     /// As [`CompartmentLayout::from_toml`]; a test of the crate shows that there is none.
@@ -132,7 +132,7 @@ impl CompartmentLayout {
         Self::from_toml(RECONSTRUCTION)
     }
 
-    /// A layout of somebody who holds the figures.
+    /// A layout from a file, for owners of the report's figures.
     ///
     /// # Errors
     /// The TOML reader's message, or which surface or point is wrong.
@@ -150,7 +150,7 @@ impl CompartmentLayout {
         Ok(layout)
     }
 
-    /// This layout, or the reconstruction where there is none.
+    /// This layout, or the built-in reconstruction without one.
     pub(crate) fn or_reconstruction(layout: Option<&Self>) -> Result<Self, String> {
         layout.cloned().map_or_else(Self::reconstruction, Ok)
     }
@@ -171,12 +171,12 @@ impl CompartmentLayout {
         planar.chain([(self.wheel.number, self.wheel.name.as_str())])
     }
 
-    /// The corners of a surface in the order of the data file, whatever its open side; none for the wheel.
+    /// Corners of a surface in the order of the data file, whatever its open side; none for the wheel.
     pub(crate) fn corners_of(&self, number: u32) -> &[Corner] {
         self.surfaces.iter().find(|s| s.number == number).map_or(&[], |s| &s.corners)
     }
 
-    /// The points by which a surface is bounded; that of the wheel's place for the wheel.
+    /// Points that bound a surface, or that give the wheel's position.
     pub(crate) fn points_of(&self, number: u32) -> BTreeSet<u32> {
         if number == self.wheel.number {
             return BTreeSet::from([self.wheel.point]);
@@ -184,7 +184,7 @@ impl CompartmentLayout {
         self.corners_of(number).iter().flat_map(|corner| [corner.x_of, corner.z_of]).collect()
     }
 
-    /// The coordinates of series 8 by which no surface is bounded, by their variables.
+    /// Coordinates of series 8 that bound no surface, by their variables.
     pub(crate) fn unused_coordinates(&self) -> Vec<String> {
         let corners = || self.surfaces.iter().flat_map(|surface| &surface.corners);
         let bounds = |n: u32| [corners().any(|corner| corner.x_of == n), corners().any(|corner| corner.z_of == n)];
@@ -212,15 +212,15 @@ impl CompartmentLayout {
         Ok(())
     }
 
-    /// The planar surfaces of a deck, by number; the wheel is not among them.
+    /// Planar surfaces of a deck, by number, without the wheel.
     pub fn faces(&self, deck: &Deck) -> Vec<Face> {
         let mut faces: Vec<_> = self.surfaces.iter().map(|surface| face(surface, deck)).collect();
         faces.sort_by_key(|face| face.number);
         faces
     }
 
-    /// All surfaces of a deck that no scenario gets, by number: those without area and those that resist nothing. A number that
-    /// could not be read leaves none out.
+    /// Surfaces of a deck that no scenario gets, by number: those without area and those without resistance. An
+    /// unreadable number omits none.
     pub(crate) fn left_out(&self, deck: &Deck) -> Vec<LeftOut> {
         let faces = self.faces(deck).into_iter();
         let no_extent = |face: Face| (face.corners.is_empty().then_some("has no area"), face.number, face.name);
@@ -237,7 +237,7 @@ impl CompartmentLayout {
     }
 }
 
-/// The corners of a surface that reaches from left to right at two points.
+/// Corners of a surface that spans the width at two points.
 fn corners_of_edge([one, two]: [u32; 2], roof_points: &[u32]) -> Vec<Corner> {
     let corner = |point: u32, is_left: bool| {
         let half_width = HALF_WIDTHS[usize::from(roof_points.contains(&point))];
@@ -259,10 +259,10 @@ fn face(surface: &SurfaceLayout, deck: &Deck) -> Face {
     Face { number: surface.number, name: surface.name.clone(), corners }
 }
 
-/// A surface smaller than this is none.
+/// Area below which a surface does not exist, in².
 const SMALLEST_AREA_IN2: f64 = 1e-6;
 
-/// Place of a corner in vehicle axes, in.
+/// Position of a corner in vehicle axes, in.
 fn position(corner: &Corner, deck: &Deck) -> [f64; 3] {
     let value = |name: &str| deck.value(name).unwrap_or(f64::NAN);
     let width = value(corner.wall.half_width);

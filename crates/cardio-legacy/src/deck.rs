@@ -7,11 +7,11 @@ use crate::cards::{CardId, CardLayout, END_OF_NUMBERS, Field, Need, Repeat, is_o
 /// A number of a card.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Number {
-    /// The number in the card's unit; zero where nothing is punched.
+    /// Number in the card's unit; zero if blank.
     pub value: f64,
-    /// Its digits as on the card, written as a person writes them.
+    /// Its digits as on the card, in usual notation.
     pub digits: String,
-    /// Nothing is punched: the zero comes from the rule blank-is-zero.
+    /// Whether the field is blank: the zero follows from the rule blank-is-zero.
     pub blank: bool,
 }
 
@@ -21,38 +21,38 @@ impl Number {
         Self { value: 0.0, digits: "0".into(), blank: true }
     }
 
-    /// A number by its digits; `None` if they are no finite number.
+    /// Number from its digits; `None` if they are not a finite number.
     pub(crate) fn from_digits(digits: &str) -> Option<Self> {
         let value: f64 = digits.parse().ok()?;
         value.is_finite().then(|| Self { value, digits: digits.to_owned(), blank: false })
     }
 
-    /// A whole number, as counts and switches are.
+    /// A whole number, for counts and switches.
     pub(crate) fn whole(value: u32) -> Self {
         Self { value: f64::from(value), digits: value.to_string(), blank: false }
     }
 
-    /// Stands where a field could not be read; such a deck is never handed out.
+    /// Placeholder of an unreadable field; such a deck is never returned.
     pub(crate) fn unreadable() -> Self {
         Self { value: f64::NAN, digits: String::new(), blank: false }
     }
 }
 
-/// One card of a deck that carries numbers.
+/// A card of a deck with numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeckCard {
-    /// Which card it is.
+    /// Identity.
     pub id: CardId,
     /// Line in the file, if it was read from one.
     pub line: Option<usize>,
-    /// The card as it stood in the file.
+    /// Text of the card in the file.
     pub raw: Option<String>,
     /// Its numbers, in the order of the layout's fields.
     pub numbers: Vec<Number>,
 }
 
 impl DeckCard {
-    /// A card with nothing but its own numbers: the card number, the segment or the surface.
+    /// A card with only its own indices: the card number, the segment or the surface.
     fn blank(id: CardId, layout: &CardLayout) -> Self {
         let mut numbers = vec![Number::blank(); layout.fields.len()];
         if let (Repeat::Each { .. }, Some(index)) = (layout.repeat, id.number) {
@@ -65,7 +65,7 @@ impl DeckCard {
         Self { id, line: None, raw: None, numbers }
     }
 
-    /// The table's fields of this card.
+    /// Layout's fields of this card.
     pub(crate) fn fields(&self) -> &'static [Field] {
         self.id.layout().map(|layout| layout.fields.as_slice()).unwrap_or_default()
     }
@@ -88,7 +88,7 @@ pub enum Plot {
 }
 
 impl Plot {
-    /// The option of a word in columns 1–4.
+    /// Option for the word in columns 1–4.
     pub(crate) fn of_word(word: &str) -> Option<Self> {
         match word {
             "STAN" => Some(Self::Standard),
@@ -97,13 +97,13 @@ impl Plot {
         }
     }
 
-    /// The word of the card.
+    /// Word on the card.
     pub(crate) fn word(self) -> &'static str {
         if self == Self::Standard { "STAN" } else { "NONE" }
     }
 }
 
-/// The cards of one run, checked.
+/// Cards of one run, checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deck {
     titles: [String; 2],
@@ -117,14 +117,14 @@ pub struct Deck {
 pub struct Difference {
     /// Name of the field, or of a title or the plot option.
     pub field: String,
-    /// What the one deck says; `None` where it lacks the field.
+    /// Value in the first deck; `None` if it lacks the field.
     pub left: Option<String>,
-    /// What the other says.
+    /// Value in the second deck.
     pub right: Option<String>,
 }
 
 impl Deck {
-    /// Puts a deck together; the cards come in the report's order afterwards.
+    /// Deck of these cards, which are sorted in the report's order.
     pub(crate) fn assemble(titles: [String; 2], cards: Vec<DeckCard>, plot: Plot) -> Self {
         let mut deck = Self { titles, cards, plot, places: HashMap::new() };
         if !deck.has_series(END_OF_NUMBERS) {
@@ -159,20 +159,20 @@ impl Deck {
         self.sort();
     }
 
-    /// Takes the cards of a series out.
+    /// Removes the cards of a series.
     pub(crate) fn remove_series(&mut self, number: u8) {
         self.cards.retain(|card| card.id.series != number);
         self.sort();
     }
 
-    /// Sets a number by the report's name, if its card is there; digits that are no number leave it blank.
+    /// Sets a number by the report's name, if its card exists; invalid digits leave it blank.
     pub(crate) fn set(&mut self, name: &str, digits: &str) {
         if let Some((card, place)) = self.places.get(name) {
             self.cards[*card].numbers[*place] = Number::from_digits(digits).unwrap_or_else(Number::blank);
         }
     }
 
-    /// Sets the pairs (sphere, surface) of series 14; without pairs there is no such series.
+    /// Sets the pairs (sphere, surface) of series 14; without pairs, the series is absent.
     pub(crate) fn set_pairs(&mut self, pairs: &[(String, String)]) {
         self.remove_series(14);
         if pairs.is_empty() {
@@ -196,53 +196,53 @@ impl Deck {
         self.plot
     }
 
-    /// All cards that carry numbers, in the report's order.
+    /// All cards with numbers, in the report's order.
     pub fn cards(&self) -> &[DeckCard] {
         &self.cards
     }
 
-    /// The cards of one series and letter: `cards_of(12, 'b')` are the stations of the path.
+    /// Cards of one series and letter: `cards_of(12, 'b')` are the stations of the path.
     pub fn cards_of(&self, series: u8, letter: char) -> impl Iterator<Item = &DeckCard> {
         self.cards.iter().filter(move |c| c.id.series == series && c.id.letter == Some(letter))
     }
 
-    /// Whether a series is there.
+    /// Whether a series is present.
     pub fn has_series(&self, series: u8) -> bool {
         self.cards.iter().any(|c| c.id.series == series)
     }
 
-    /// A number by the report's name, index included: `TF`, `XLE(3)`, `Q0(17)`, `CALT(5)`. `None` where its card is absent.
+    /// Number by the report's name, with its index: `TF`, `XLE(3)`, `Q0(17)`, `CALT(5)`. `None` if its card is absent.
     pub fn number(&self, name: &str) -> Option<&Number> {
         let (card, place) = self.places.get(name)?;
         self.cards.get(*card)?.numbers.get(*place)
     }
 
-    /// The value of [`Deck::number`], in the card's unit.
+    /// Value of [`Deck::number`], in the card's unit.
     pub fn value(&self, name: &str) -> Option<f64> {
         self.number(name).map(|n| n.value)
     }
 
-    /// The card on which a number stands, and its field.
+    /// Card of a number, and its field.
     pub fn place_of(&self, name: &str) -> Option<(&DeckCard, &'static Field)> {
         let (card, place) = self.places.get(name)?;
         let card = self.cards.get(*card)?;
         Some((card, card.fields().get(*place)?))
     }
 
-    /// The fields that are blank and were read as zero, by name. Fields that the report allows to be blank because
-    /// they have no effect (the other belt, NARRY) are left out.
+    /// Blank fields read as zero, by name, without those that the report permits to be blank because they have no
+    /// effect (the other belt, NARRY).
     pub fn blank_fields(&self) -> Vec<String> {
         let numbers = self.cards.iter().filter(|c| c.id.series != 14).flat_map(DeckCard::named);
         let blank = numbers.filter(|(name, _, number)| number.blank && !self.has_no_effect(name));
         blank.map(|(name, ..)| name).collect()
     }
 
-    /// Whether a field belongs to what a switch leaves out of use.
+    /// Whether a field belongs to something that a switch disables.
     pub(crate) fn is_unused(&self, name: &str) -> bool {
         is_of_unused(name, self.value("NOPBLT").unwrap_or(f64::NAN))
     }
 
-    /// Whether a field belongs to what a switch leaves out of use, or gives way to another one.
+    /// Whether a field belongs to something that a switch disables, or is overridden by another.
     pub(crate) fn has_no_effect(&self, name: &str) -> bool {
         self.is_unused(name) || (name.starts_with("SLACK(") && self.value("NPOS") == Some(1.0))
     }
@@ -252,8 +252,8 @@ impl Deck {
         series != 14 && need(series, self.value("MREAD"), self.value("NPOS")) == Need::Unused
     }
 
-    /// The fields in which two decks differ: by value, a blank counting as the zero that it means.
-    /// Titles are compared without trailing blanks; lines and digits do not count.
+    /// Fields in which two decks differ: by value, with blanks as zeros. Titles are compared without trailing blanks;
+    /// line numbers and notation are ignored.
     pub fn differences(&self, other: &Self) -> Vec<Difference> {
         let (mut left, mut right) = (self.shown(), other.shown());
         let fields: BTreeSet<String> = left.keys().chain(right.keys()).cloned().collect();
@@ -261,7 +261,7 @@ impl Deck {
         fields.into_iter().map(of_both).filter(|difference| difference.left != difference.right).collect()
     }
 
-    /// What the deck says, by field. The pairs are one entry, because their order is free.
+    /// Values of the deck, by field. The pairs are one entry, because their order is arbitrary.
     fn shown(&self) -> BTreeMap<String, String> {
         let is_pair = |card: &&DeckCard| card.id.series == 14 && card.id.letter == Some('b');
         let named = self.cards.iter().filter(|card| !is_pair(card)).flat_map(DeckCard::named);

@@ -7,37 +7,37 @@ use crate::deck::DeckCard;
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::{Rule, Severity, Strictness};
 
-/// How many names a message lists.
+/// Largest number of names in a message.
 pub(crate) const LISTED: usize = 24;
 
-/// One problem, with everything a person needs to find and mend it.
+/// One problem, with its location and remedy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
-    /// What it means for the deck.
+    /// Severity.
     pub severity: Severity,
-    /// The rule that is broken.
+    /// Violated rule.
     pub rule: Rule,
     /// Name of the file.
     pub file: String,
-    /// Line in the file, from 1; `None` for what concerns the file as a whole.
+    /// Line in the file, from 1; `None` for the file as a whole.
     pub line: Option<usize>,
-    /// Series and letter of the card, where known.
+    /// Series and letter of the card, if known.
     pub card: Option<CardId>,
-    /// Columns concerned.
+    /// Columns.
     pub columns: Option<Columns>,
     /// The report's name of the variable.
     pub variable: Option<String>,
-    /// The card as it stands in the file, without trailing blanks.
+    /// Text of the card in the file, without trailing blanks.
     pub raw: Option<String>,
-    /// What is wrong.
+    /// Description of the problem.
     pub message: String,
-    /// What was expected.
+    /// Expected value.
     pub expected: Option<String>,
-    /// How to mend it.
+    /// Remedy.
     pub remedy: Option<String>,
 }
 
-/// How a problem is put together; reporting it adds the file and the severity.
+/// Builder of a problem; reporting it adds the file and the severity.
 impl Diagnostic {
     pub(crate) fn new(rule: Rule, message: impl Into<String>) -> Self {
         let [expected, remedy] = rule.expected_and_remedy().map(|text| text.map(str::to_owned));
@@ -60,7 +60,7 @@ impl Diagnostic {
         Self { raw: Some(card.text()), ..self.at_line(card.line) }
     }
 
-    /// On a card of a deck; its line and text are known if it was read from a file.
+    /// Location on a card of a deck, with line and text if it was read from a file.
     pub(crate) fn on_card_of_deck(self, card: &DeckCard) -> Self {
         Self { card: Some(card.id), line: card.line.or(self.line), raw: card.raw.clone().or(self.raw), ..self }
     }
@@ -125,12 +125,12 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// So many problems of one rule are shown.
+/// Number of problems shown per rule.
 const SHOWN: usize = 5;
-/// What follows of cards whose columns moved.
+/// Rules violated as a consequence of shifted columns.
 const OF_MOVED_COLUMNS: [Rule; 3] = [Rule::SeriesMissing, Rule::UnexpectedCard, Rule::NoTerminator];
 
-/// All problems of a file, in the order in which they were found.
+/// All problems of a file, in the order of detection.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Diagnostics {
     items: Vec<Diagnostic>,
@@ -147,19 +147,19 @@ impl Diagnostics {
         self.items.iter().filter(|d| d.severity == severity).count()
     }
 
-    /// Whether a deck of the file cannot be used.
+    /// Whether any deck of the file is unusable.
     pub fn has_errors(&self) -> bool {
         self.count(Severity::Error) > 0
     }
 
-    /// Whether nothing was found, not even a note.
+    /// Whether there are no problems, not even a note.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }
 }
 
 impl fmt::Display for Diagnostics {
-    /// The problems, of each rule the first ones, then one line that counts them all.
+    /// The first problems of each rule, then one line with all counts.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut seen: Vec<(Rule, usize)> = Vec::new();
         let moved = self.items.iter().filter(|item| item.rule == Rule::Tab && item.severity == Severity::Error).count();
@@ -194,7 +194,7 @@ impl fmt::Display for Diagnostics {
     }
 }
 
-/// Where problems are collected; it knows the file and the strictness.
+/// Collector of problems, with the file and the strictness.
 #[derive(Debug)]
 pub(crate) struct Sink {
     file: String,
@@ -211,13 +211,13 @@ impl Sink {
         self.found.count(Severity::Error)
     }
 
-    /// Whether an error has been found on one of these lines, as the reading of lines does before decks are read.
+    /// Whether an error was found on one of these lines, as by the reading of lines before that of decks.
     pub(crate) fn has_error_in(&self, first: usize, last: usize) -> bool {
         let errors = self.found.items.iter().filter(|d| d.severity == Severity::Error);
         errors.filter_map(|d| d.line).any(|line| (first..=last).contains(&line))
     }
 
-    /// One problem in the place of those that many fields have alike.
+    /// Replaces equal problems of many fields by one.
     fn fold_lone_points(&mut self) {
         let (mut points, others): (Vec<_>, Vec<_>) =
             std::mem::take(&mut self.found.items).into_iter().partition(|d| d.rule == Rule::LonePoint);

@@ -14,19 +14,19 @@
 
 use crate::rule::Rule;
 
-/// Largest number that the 360's double precision holds, 16⁶³(1 − 16⁻¹⁴).
+/// Largest double-precision number of the IBM 360, 16⁶³(1 − 16⁻¹⁴).
 pub const LARGEST_REAL: f64 = 7.237_005_577_332_26e75;
-/// Smallest positive number of the 360, 16⁻⁶⁵.
+/// Smallest positive number of the IBM 360, 16⁻⁶⁵.
 pub const SMALLEST_REAL: f64 = 5.397_605_346_934_03e-79;
 
-/// What one numeric field says.
+/// Content of a numeric field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
     /// The number; zero for a blank field.
     pub value: f64,
-    /// The number as a person writes it, with all the digits of the card: `386.04`, `-0.5`, `1.5e-3`; `0` for a blank field.
+    /// Number in usual notation, with all digits of the card: `386.04`, `-0.5`, `1.5e-3`; `0` for a blank field.
     pub digits: String,
-    /// Nothing is punched in the field.
+    /// Whether the field is blank.
     pub blank: bool,
     /// Where the rules gave something that the eye does not see: [`Rule::EmbeddedBlanks`], [`Rule::LeftJustified`] for blanks
     /// behind the last digit that were read as zeros, [`Rule::BareExponent`], [`Rule::SmallLetter`], [`Rule::Underflow`] for a
@@ -34,23 +34,23 @@ pub struct Reading {
     pub surprises: Vec<Rule>,
 }
 
-/// Why a field holds no number.
+/// Reason why a field contains no number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FieldError {
-    /// A character that has no place there; `offset` counts from 0 inside the field.
+    /// Invalid character.
     Character {
-        /// Place inside the field, from 0.
+        /// Position in the field, from 0.
         offset: usize,
-        /// The byte, to be read as Latin-1.
+        /// Byte in Latin-1.
         found: u8,
     },
     /// A sign without any digit.
     NoDigits,
     /// An exponent letter with nothing after it.
     EmptyExponent,
-    /// The number is larger than the 360 could hold.
+    /// Number too large for the IBM 360.
     TooLarge {
-        /// The digits that the rules gave, blanks filled in.
+        /// Digits by the rules, with blanks as zeros.
         digits: String,
     },
 }
@@ -93,7 +93,7 @@ fn blank() -> Reading {
     Reading { value: 0.0, digits: "0".into(), blank: true, surprises: Vec::new() }
 }
 
-/// A number taken apart: sign, digits before and after the point, exponent.
+/// Parts of a number: sign, digits before and after the point, exponent.
 #[derive(Default)]
 struct Parts {
     negative: bool,
@@ -109,8 +109,8 @@ impl Parts {
         self.fraction.as_mut().unwrap_or(&mut self.whole).push(digit);
     }
 
-    /// Adds a blank of the mantissa, the first byte of `rest`. It is a zero, which matters unless nothing but zeros stands
-    /// before it in the whole part, or nothing but an exponent or blanks behind it in the fraction.
+    /// Adds a blank of the mantissa, the first byte of `rest`, as zero. It matters unless only zeros precede it in the
+    /// whole part, or only an exponent or blanks follow it in the fraction.
     fn push_blank(&mut self, rest: &[u8], punched: bool) {
         let next = rest.iter().find(|b| **b != b' ');
         let surprise = match (&self.fraction, next) {
@@ -123,7 +123,7 @@ impl Parts {
         note(&mut self.surprises, surprise);
     }
 
-    /// The number as Rust and TOML read it, leading zeros dropped, the card's other digits kept.
+    /// Number in the notation of Rust and TOML, without leading zeros, with the card's other digits.
     fn as_rust(&self) -> String {
         let sign = |negative| if negative { "-" } else { "" };
         let mut text = sign(self.negative).to_owned();
@@ -141,7 +141,7 @@ impl Parts {
     }
 }
 
-/// Splits a field by the rules above; `None` when it is all blank.
+/// Splits a field by the rules above; `None` if it is blank.
 fn split(field: &[u8]) -> Result<Option<Parts>, FieldError> {
     let Some(start) = field.iter().position(|b| *b != b' ') else { return Ok(None) };
     let mut parts = Parts::default();
@@ -173,7 +173,7 @@ fn split(field: &[u8]) -> Result<Option<Parts>, FieldError> {
     Ok(Some(parts))
 }
 
-/// Reads `E3`, `D-3`, `+3`, `-3` and the blanks behind, from `offset` inside the field.
+/// Reads `E3`, `D-3`, `+3`, `-3` and the following blanks, from `offset` in the field.
 fn read_exponent(rest: &[u8], offset: usize, parts: &mut Parts) -> Result<(), FieldError> {
     match rest[0] {
         b'E' | b'D' => {}

@@ -11,18 +11,19 @@ use crate::deck::Deck;
 /// The line before the kept values.
 pub(crate) const MARKER: &str = "Card values without a place in a scenario, kept for the way back to cards:";
 
-/// The first title card, where it is empty, and the second one.
+/// First title card, if empty, and the second one.
 pub(crate) const TITLE_1: &str = "TITLE 1";
 pub(crate) const TITLE_2: &str = "TITLE 2";
 /// The plot option, STAN or NONE.
 pub(crate) const PLOT: &str = "PLOT";
-/// A pair of series 14 that the scenario cannot name: sphere and surface; its position in the series, from 1, is behind this name.
+/// A pair of series 14 that the scenario cannot name: sphere and surface, with its position in the series, from 1,
+/// after this name.
 pub(crate) const PAIR: &str = "PASSED PAIR";
 
 /// Values by name, in the order of their names.
 pub(crate) type Kept = BTreeMap<String, String>;
 
-/// What a deck's scenario has to keep, surfaces left out of it excepted.
+/// Values that a deck's scenario must keep, without those of omitted surfaces.
 pub(crate) fn kept_of(deck: &Deck) -> Kept {
     let mut kept = Kept::new();
     let mut keep = |name: &str, value: String| drop(kept.insert(name.to_owned(), value));
@@ -50,14 +51,14 @@ pub(crate) fn kept_of(deck: &Deck) -> Kept {
     kept
 }
 
-/// Dampings of stops that are none because their angles are zero.
+/// Dampings of stops that do not exist because their angles are zero.
 fn unused_stop_dampings(deck: &Deck) -> impl Iterator<Item = String> {
     let is_zero = |name: &String| deck.value(name) == Some(0.0);
     let unused = JOINTS.iter().filter(move |joint| joint.stops().as_flattened().iter().all(is_zero));
     unused.map(|joint| joint.full_damping()).filter(move |damping| !is_zero(damping))
 }
 
-/// β₀ of a back joint without a spring, which has no place beside it.
+/// β₀ of a back joint without a spring, which the scenario cannot hold.
 fn spring_angles(deck: &Deck) -> impl Iterator<Item = String> {
     let springs = JOINTS.iter().filter_map(|joint| joint.spring);
     springs.filter(|[stiffness, _]| deck.value(stiffness) == Some(0.0)).map(|[_, angle]| angle.to_owned())
@@ -69,7 +70,7 @@ pub(crate) fn to_notes(kept: &Kept) -> String {
     format!("{MARKER}\n{lines}")
 }
 
-/// The kept values of a scenario's notes; empty if there are none.
+/// Values kept in a scenario's notes.
 pub(crate) fn from_notes(notes: &str) -> Kept {
     let Some((_, block)) = notes.split_once(MARKER) else { return Kept::new() };
     let lines = block.lines().filter_map(|line| line.split_once(" = "));

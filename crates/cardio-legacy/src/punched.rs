@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A run of columns of a card, counted from 1, both ends included.
+/// Range of columns of a card, counted from 1, both ends included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Columns {
     /// First column, 1–80.
@@ -33,10 +33,10 @@ impl fmt::Display for Columns {
     }
 }
 
-/// Columns of a card.
+/// Number of columns of a card.
 pub(crate) const CARD_WIDTH: usize = 80;
 
-/// One card: 80 columns of Latin-1, and the line where it stands.
+/// A card: 80 columns of Latin-1, and its line in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PunchedCard {
     /// Line in the file, from 1.
@@ -45,7 +45,7 @@ pub(crate) struct PunchedCard {
 }
 
 impl PunchedCard {
-    /// A card with `bytes` from column 1, padded with blanks; what stands behind column 80 is not part of a card.
+    /// Card with `bytes` from column 1, padded with blanks; bytes beyond column 80 are dropped.
     pub fn new(line: usize, bytes: &[u8]) -> Self {
         let mut columns = [b' '; CARD_WIDTH];
         for (column, byte) in columns.iter_mut().zip(bytes) {
@@ -54,7 +54,7 @@ impl PunchedCard {
         Self { line, columns }
     }
 
-    /// The bytes of some columns; columns beyond the card are left away.
+    /// Bytes of some columns, without columns beyond the card.
     pub fn field(&self, columns: Columns) -> &[u8] {
         let first = usize::from(columns.first.max(1)) - 1;
         let last = usize::from(columns.last).min(CARD_WIDTH);
@@ -71,18 +71,18 @@ impl PunchedCard {
         latin1(&self.columns).trim_end_matches(' ').to_owned()
     }
 
-    /// Whether nothing is punched in these columns.
+    /// Whether these columns are blank.
     pub fn is_blank_in(&self, columns: Columns) -> bool {
         self.field(columns).iter().all(|b| *b == b' ')
     }
 
-    /// Whether nothing is punched at all.
+    /// Whether the card is blank.
     pub fn is_blank(&self) -> bool {
         self.columns.iter().all(|b| *b == b' ')
     }
 }
 
-/// Bytes of Latin-1 as text; control characters are shown as `·`, so that a column stays a column.
+/// Bytes of Latin-1 as text; control characters become `·`, so that columns stay aligned.
 pub(crate) fn latin1(bytes: &[u8]) -> String {
     bytes.iter().map(|b| if is_control(*b) { '·' } else { char::from(*b) }).collect()
 }

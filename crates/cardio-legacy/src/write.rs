@@ -9,7 +9,7 @@ use crate::cards::Format;
 use crate::deck::{Deck, DeckCard, Number};
 
 impl Deck {
-    /// The deck as cards, from the titles to the plot card. The final card FINI belongs to the file: [`write_file`].
+    /// Deck as cards, from the titles to the plot card. The final card FINI belongs to the file: [`write_file`].
     pub fn write(&self) -> String {
         let mut text = String::new();
         for title in self.titles() {
@@ -22,8 +22,8 @@ impl Deck {
         text
     }
 
-    /// The deck without what has no effect: series that its switches make superfluous, numbers of the belt that is not in use.
-    /// It is what a way through a scenario keeps.
+    /// Deck without parts that have no effect: series that its switches make superfluous, numbers of the disabled belt.
+    /// A conversion to a scenario and back keeps this.
     pub fn normalised(&self) -> Deck {
         let used = self.cards().iter().filter(|card| !self.is_superfluous(card.id.series));
         let blanked = used.map(|card| {
@@ -53,7 +53,7 @@ impl Deck {
     }
 }
 
-/// A file of decks as bytes of Latin-1, with the final card FINI. Characters that Latin-1 lacks become `?`.
+/// File of decks as bytes of Latin-1, with the final card FINI. Characters outside Latin-1 become `?`.
 pub fn write_file(decks: &[Deck]) -> Vec<u8> {
     let mut text: String = decks.iter().map(Deck::write).collect();
     text.push_str("FINI\n");
@@ -78,8 +78,8 @@ pub(crate) fn punch_real(number: &Number, width: usize) -> String {
         .unwrap_or_else(|| "0.".to_owned())
 }
 
-/// A number rounded to one digit and `places` more, in the first of its notations that fits: without exponent, with one
-/// digit before the point, with all digits before it (`7000000002`, `1.234E-6`, `1234567-20`).
+/// A number rounded to one digit and `places` more, in the first notation that fits: without exponent, with one digit
+/// before the point, with all digits before it (`7000000002`, `1.234E-6`, `1234567-20`).
 fn rounded_form(value: f64, places: usize, width: usize) -> Option<String> {
     let scientific = format!("{value:.places$e}");
     let rounded: f64 = scientific.parse().ok()?;
@@ -93,7 +93,7 @@ fn rounded_form(value: f64, places: usize, width: usize) -> Option<String> {
     notations.iter().filter(|_| rounded != 0.0).find_map(|digits| fitting_form(digits, width))
 }
 
-/// The forms in which digits may be punched, the plainest first; the first one that fits.
+/// Notations of digits, the plainest first; the first one that fits.
 fn fitting_form(digits: &str, width: usize) -> Option<String> {
     let (mantissa, exponent) = digits.split_once('e').map_or((digits, None), |(m, e)| (m, Some(e)));
     let pointed = if mantissa.contains('.') { mantissa.to_owned() } else { format!("{mantissa}.") };

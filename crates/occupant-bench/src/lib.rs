@@ -27,21 +27,21 @@ pub const BELTED: &str = include_str!("../../../tests/data/hand/three-point.toml
 /// A driver with belt and air bag, as shipped.
 pub const BAGGED: &str = include_str!("../../../tests/data/hand/airbag-driver.toml");
 
-/// The same on a column that yields, as shipped.
+/// The same with a collapsing column, as shipped.
 pub const STROKING: &str = include_str!("../../../tests/data/hand/column-driver.toml");
 
 /// A person of 19 segments on a sled, as shipped.
 pub const SLED: &str = include_str!("../../../scenarios/sled-person.toml");
 
-/// Instant of the bag's crash that is timed, s: the bag is full, head and chest press it, gas comes in and leaves.
+/// Timed instant of the crash with air bag, s: the bag is full, head and chest press on it, gas flows in and out.
 pub const PRESSED_S: f64 = 0.058;
 
-/// Instant of that crash that is timed, s: on the limiter, webbing slides over the rings.
+/// Timed instant of that crash, s: the limiter pays out, webbing slides over the rings.
 pub const LIMITED_S: f64 = 0.06;
 
 const SOLIDS: &str = include_str!("../../../tests/data/hand/cabin.toml");
 
-/// Solids of that car that stand far from the driver.
+/// Solids of that car far from the driver.
 const LEFT_OUT: [&str; 9] = [
     "left_window",
     "right_window",
@@ -57,7 +57,7 @@ const LEFT_OUT: [&str; 9] = [
 /// Step of the integrator, s.
 pub const STEP_S: f64 = 1e-4;
 
-/// Instant of the crash that is timed, s: belts taut, seat, floor and wheel touched by seven pairs.
+/// Timed instant of the crash, s: belts taut, seven pairs on seat, floor and wheel in contact.
 pub const TOUCHING_S: f64 = 0.09;
 
 fn no_file(name: &str) -> Result<Vec<u8>, String> {
@@ -93,7 +93,7 @@ pub fn sled() -> Model {
     read(SLED).model().expect("the scene is valid").0
 }
 
-/// The same on a column that yields.
+/// The driver with a collapsing column.
 pub fn stroking() -> Model {
     read(STROKING).model().expect("the scene is valid").0
 }
@@ -133,7 +133,7 @@ pub struct Instant {
     pub state: State<f64>,
     /// Motion of space and of the vehicle.
     pub frames: Frames<f64>,
-    /// What contacts and belts remember.
+    /// Stored state of contacts and belts.
     pub history: History<f64>,
     scratch: Scratch<f64>,
     stages: Stages<f64>,
@@ -192,7 +192,7 @@ impl Instant {
         now
     }
 
-    /// The rate of change, the history committed.
+    /// The rate of change, with the history committed.
     pub fn commit(&mut self) -> &State<f64> {
         let Instant { system, state, frames, history, scratch, rate, .. } = self;
         system.rate_alone(scratch, Situation::accepted(state, frames), history, &mut (), rate);
@@ -206,14 +206,14 @@ impl Instant {
         rate
     }
 
-    /// The skeleton alone: accelerations under given loads, which is what an articulated-body algorithm answers.
+    /// The skeleton alone: accelerations under given loads, the output of an articulated-body algorithm.
     pub fn bare(&self, loads: &[Wrench<f64>; MOST_SEGMENTS]) -> Accelerations<f64> {
         let skeleton = &self.system.skeleton;
         let kinematics = Kinematics::new(skeleton, &self.state);
         dynamics::solve(skeleton, &kinematics, self.state.hinge_rate(), loads)
     }
 
-    /// One step in a vehicle whose motion is at rest: four evaluations and the sums of the integrator.
+    /// One step in a vehicle at rest: four evaluations and the sums of the integrator.
     pub fn step(&mut self) -> &State<f64> {
         let Instant { system, state, frames, history, scratch, stages, .. } = self;
         stages.step(state, STEP_S, |stage, state, rate| match stage {

@@ -132,7 +132,7 @@ fn a_sweep_has_a_folder_of_its_own_and_says_what_comes_next() {
     assert!(told.contains("next       occupant study report study"), "{told}");
     assert!(told.contains("least") && told.contains("head.peak"), "{told}");
     let matrix = done(here, &["study", "report", "study"]);
-    assert!(matrix.starts_with("rank correlations, dimensionless; †") && matrix.contains("speed"), "{matrix}");
+    assert!(matrix.starts_with("rank correlations (−1 to 1); †") && matrix.contains("speed"), "{matrix}");
     let page = fs::read_to_string(here.join("study/report.html")).unwrap();
     assert!(page.contains("What matters for which result") && page.contains("<summary>Pictures"));
     let refused = answer(here, &["sweep", "case"]);
@@ -278,7 +278,7 @@ fn units_are_those_of_the_scenario_or_those_asked_for() {
     assert!((n / 4.448_221_6 - lbf).abs() < 0.62, "{n} N, {lbf} lbf");
     let json = |words: &[&str]| done(here, &[words, &["--json"]].concat());
     assert_eq!(json(&measures), json(&["measures", "case.mcap", "--units", "in-lbf-s"]));
-    let checked = inches(&["check", "case.toml"]);
+    let checked = inches(&["check", "case.toml", "--all"]);
     for words in ["31.069 mph at the start", "mass, lb", "length, in", "1.00000 g", "force, lbf"] {
         assert!(checked.contains(words), "{words}: {checked}");
     }

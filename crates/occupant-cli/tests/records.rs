@@ -236,7 +236,7 @@ fn headings_of_known_programs_tell_their_units() {
     }
 }
 
-/// What may be the longitudinal motion is never left out without a word.
+/// A channel that may be the longitudinal motion is never omitted without a message.
 #[test]
 fn a_path_without_forward_motion_names_what_was_left_out() {
     let folder = files();

@@ -44,10 +44,10 @@ fn an_unbelted_body_with_nothing_ahead_is_warned_of() {
     let unbelted = ["check", "case.toml", "-q", "--set", "belts=null"];
     let sets: Vec<&str> = open.iter().flat_map(|set| ["--set", set.as_str()]).collect();
     let said = spoken(folder.path(), &[&unbelted[..], &sets].concat());
-    assert!(said.contains("has no belt and nothing ahead of it"), "{said}");
+    assert!(said.contains("has no belt and nothing in front of it"), "{said}");
     for quiet in [&unbelted[..], &[&["check", "case.toml", "-q"], &sets[..]].concat()] {
         let said = spoken(folder.path(), quiet);
-        assert!(!said.contains("nothing ahead of it"), "{quiet:?}: {said}");
+        assert!(!said.contains("nothing in front of it"), "{quiet:?}: {said}");
     }
 }
 

@@ -8,16 +8,16 @@ use std::fmt;
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_units::unit::Unit;
 
-/// The axes that a component is along.
+/// Axes of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axes {
     /// No axes: a scalar or a resultant.
     None,
     /// Vehicle axes: X forward, Y right, Z down.
     Vehicle,
-    /// Axes of the segment: X ahead, Y to the occupant's left, Z up when standing upright.
+    /// Axes of the segment: X forward, Y to the occupant's left, Z up when standing upright.
     Segment,
-    /// SAE J211 axes of the segment: X ahead, Y to the occupant's right, Z down when standing upright.
+    /// SAE J211 axes of the segment: X forward, Y to the occupant's right, Z down when standing upright.
     J211,
     /// Vehicle-space: X′_v forward, Y′_v right, Z′_v down, fixed.
     VehicleSpace,
@@ -26,29 +26,29 @@ pub enum Axes {
 }
 
 impl Axes {
-    /// Its name in metadata.
+    /// Name in metadata.
     pub const fn name(self) -> &'static str {
         ["none", "vehicle", "segment", "segment (SAE J211)", "vehicle-space", "space"][self as usize]
     }
 
-    /// Its word in the names of fields.
+    /// Word in the names of fields.
     const fn word(self) -> &'static str {
         ["", "vehicle", "segment", "j211", "path", "space"][self as usize]
     }
 }
 
-/// Segment axes (left, up) to SAE J211 axes (right, down), or back: a half turn about X.
+/// Segment axes (left, up) to SAE J211 axes (right, down), or back: rotation by 180° about X.
 pub(crate) fn to_j211(v: Vector3<f64>) -> Vector3<f64> {
     Vector3::new(v.x, -v.y, -v.z)
 }
 
-/// What quantities belong to: the vehicle, a segment, a belt.
+/// Owner of quantities: the vehicle, a segment, a belt.
 pub trait Owner: Copy + fmt::Debug {
-    /// It at one output.
+    /// Data of the owner at one output.
     type At<'a>;
 }
 
-/// A function that takes something from its owner at one output.
+/// Function that reads a value of its owner at one output.
 type Taker<O, T> = for<'a> fn(&<O as Owner>::At<'a>) -> T;
 
 /// A quantity of results: a time history, a field of a message, or both.
@@ -56,50 +56,50 @@ type Taker<O, T> = for<'a> fn(&<O as Owner>::At<'a>) -> T;
 pub struct Quantity<O: Owner> {
     /// SI unit.
     pub unit: Unit,
-    /// What it is along.
+    /// Axes.
     pub axes: Axes,
-    /// How it is taken from its owner.
+    /// Access to the value.
     pub take: Take<O>,
-    /// As a time history.
+    /// Words as a time history.
     pub channel: Option<ChannelWords>,
-    /// As a field of its owner's message.
+    /// Words as a field of its owner's message.
     pub field: Option<FieldWords>,
     /// The field of a vector's magnitude.
     pub resultant: Option<FieldWords>,
 }
 
-/// How a time history is called.
+/// Name and meaning of a time history.
 #[derive(Clone, Copy, Debug)]
 pub struct ChannelWords {
-    /// The end of its name, after the owner's.
+    /// Suffix of its name, after the owner's.
     pub name: &'static str,
-    /// What it is, with `{}` for the owner.
+    /// Meaning, with `{}` for the owner.
     pub meaning: &'static str,
 }
 
-/// How a field of a message is called. Numbers are never given again to something else.
+/// Name and meaning of a field of a message. Field numbers are never reused for something else.
 #[derive(Clone, Copy, Debug)]
 pub struct FieldWords {
     /// Field number.
     pub number: u32,
-    /// Its name without axes and unit.
+    /// Name without axes and unit.
     pub stem: &'static str,
-    /// What it is, for the file's metadata.
+    /// Meaning, for the file's metadata.
     pub meaning: &'static str,
 }
 
-/// How a quantity is taken from its owner at one output.
+/// Access to a quantity of its owner at one output.
 #[derive(Clone, Copy, Debug)]
 pub enum Take<O: Owner> {
     /// A number.
     Number(Taker<O, f64>),
     /// A whole number.
     Count(Taker<O, u64>),
-    /// Words.
+    /// Text.
     Text(Taker<O, String>),
     /// A vector.
     Vector(Taker<O, Vector3<f64>>),
-    /// A vector that need not exist.
+    /// A vector that may be missing.
     Perhaps(Taker<O, Option<Vector3<f64>>>),
     /// A rotation.
     Rotation(Taker<O, UnitQuaternion<f64>>),
@@ -114,16 +114,16 @@ pub enum Take<O: Owner> {
 /// Fields of a message by number.
 pub(crate) type Fields = Vec<(u32, Value)>;
 
-/// What was taken.
+/// Value of a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number.
     Number(f64),
     /// A whole number.
     Count(u64),
-    /// Words.
+    /// Text.
     Text(String),
-    /// A vector; none if it does not exist.
+    /// A vector; none if missing.
     Vector(Option<Vector3<f64>>),
     /// A rotation.
     Rotation(UnitQuaternion<f64>),
@@ -131,20 +131,20 @@ pub enum Value {
     Numbers(Vec<f64>),
     /// A list of indices.
     Indices(Vec<u32>),
-    /// A long list of numbers of single precision.
+    /// A long list of numbers in single precision.
     Singles(Vec<f32>),
     /// Messages within the message.
     Parts(Vec<Fields>),
 }
 
-/// The type of a field.
+/// Type of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A number.
     Number,
     /// A whole number.
     Count,
-    /// Words.
+    /// Text.
     Text,
     /// A vector.
     Vector,
@@ -154,14 +154,14 @@ pub enum Kind {
     Numbers,
     /// A list of indices.
     Indices,
-    /// A long list of numbers of single precision.
+    /// A long list of numbers in single precision.
     Singles,
     /// Messages of the named type.
     Parts(&'static str),
 }
 
 impl<O: Owner> Quantity<O> {
-    /// What a function takes from its owner.
+    /// Quantity read by a function.
     pub(crate) const fn new(unit: Unit, axes: Axes, take: Take<O>) -> Self {
         Quantity { unit, axes, take, channel: None, field: None, resultant: None }
     }
@@ -181,36 +181,36 @@ impl<O: Owner> Quantity<O> {
         Quantity::new(unit, axes, Take::Vector(of))
     }
 
-    /// A vector that need not exist.
+    /// A vector that may be missing.
     pub(crate) const fn perhaps(unit: Unit, axes: Axes, of: fn(&O::At<'_>) -> Option<Vector3<f64>>) -> Self {
         Quantity::new(unit, axes, Take::Perhaps(of))
     }
 
-    /// Also a time history; `{}` in `meaning` stands for the owner.
+    /// Adds a time history; `{}` in `meaning` stands for the owner.
     pub const fn channel(mut self, name: &'static str, meaning: &'static str) -> Self {
         self.channel = Some(ChannelWords { name, meaning });
         self
     }
 
-    /// Also a field of the owner's message; axes and unit are added to `stem`.
+    /// Adds a field of the owner's message; axes and unit are added to `stem`.
     pub(crate) const fn field(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
         self.field = Some(FieldWords { number, stem, meaning });
         self
     }
 
-    /// Its magnitude is a field too.
+    /// Adds a field for the magnitude.
     pub(crate) const fn resultant(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
         self.resultant = Some(FieldWords { number, stem, meaning });
         self
     }
 
-    /// The name of its field: quantity, axes, unit.
+    /// Name of its field: quantity, axes, unit.
     pub(crate) fn field_name(&self, stem: &str) -> String {
         let unit = suffix(self.unit);
         [stem, self.axes.word(), &unit].into_iter().filter(|w| !w.is_empty()).collect::<Vec<_>>().join("_")
     }
 
-    /// The name of the field of its magnitude.
+    /// Name of the field of its magnitude.
     pub(crate) fn resultant_name(&self, stem: &str) -> String {
         format!("{stem}_resultant_{}", suffix(self.unit))
     }
@@ -253,7 +253,7 @@ impl Owner for Energy {
     type At<'a> = f64;
 }
 
-/// An energy: the number of its field, its name, and what it is, in plots and in the file's metadata.
+/// An energy: field number, name, and meaning in plots and in the file's metadata.
 pub(crate) const fn energy(
     number: u32,
     name: &'static str,
@@ -263,7 +263,7 @@ pub(crate) const fn energy(
     Quantity::number(Unit::Joule, |energy_j| *energy_j).channel(name, meaning).field(number, name, recorded)
 }
 
-/// `m_s2` for m/s²; nothing for a plain number.
+/// `m_s2` for m/s²; empty for a dimensionless number.
 fn suffix(unit: Unit) -> String {
     match unit {
         Unit::One => String::new(),

@@ -21,13 +21,13 @@ use crate::motion::mobility::Mobility;
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
 use crate::vehicle::VehiclePath;
 
-/// A body with these coordinates and rates beside a parked vehicle.
+/// A body with these coordinates and rates in a parked vehicle.
 pub(crate) fn placed(case: SetupBuilder, q: [f64; DOF], rates: [f64; DOF], end_s: f64) -> Setup {
     let posture = InitialPosture::Coordinates(Box::new(ReportCoordinates { q, rates }));
     case.build(VehiclePath::parked(), posture, end_s)
 }
 
-/// A body at rest in a crooked posture, over a floor in space at this height, m, if there is one.
+/// A body at rest in an irregular posture, over a floor in space at this height, m, if any.
 pub(crate) fn crooked(end_s: f64, floor: Option<(f64, Material)>) -> Setup {
     let mut case = SetupBuilder::new("crooked", Body::male50(), Joints::male50());
     if let Some((height_m, material)) = floor {
@@ -39,12 +39,12 @@ pub(crate) fn crooked(end_s: f64, floor: Option<(f64, Material)>) -> Setup {
     placed(case, std::array::from_fn(|i| 0.3 + 0.07 * i as f64), [0.0; DOF], end_s)
 }
 
-/// A floor of 50 kN/m that gives half of its work back.
+/// A floor of 50 kN/m with a returned fraction of one half.
 pub(crate) fn hard(friction: f64) -> Material {
     Material::new("floor", BilinearSpring::linear(50e3, 0.5), friction)
 }
 
-/// Height of the lowest point of the spheres of the crooked body, m.
+/// Height of the lowest point of the spheres of this body, m.
 pub(crate) fn lowest_m() -> f64 {
     let model = Model::new(crooked(0.1, None)).unwrap();
     let mobility = Mobility::new(&model.system().skeleton, &model.start().state);
@@ -55,8 +55,8 @@ pub(crate) fn lowest_m() -> f64 {
     bottom.fold(f64::INFINITY, f64::min)
 }
 
-/// A belt of the cart's driver over ring, shoulder, chest, buckle and pelvis: its spool locks when due, its pretensioner fires
-/// 5 ms later and its limiter holds 3 kN.
+/// Belt of the cart's driver over ring, shoulder, chest, buckle and pelvis: its retractor locks at `due_s`, its
+/// pretensioner fires 5 ms later and its limiter holds 3 kN.
 pub(crate) fn three_point(body: &Body, due_s: f64) -> Chain {
     let vehicle = |inches: [f64; 3]| Site::Vehicle(Point3::from(inches.map(|x| 0.0254 * x)), None);
     let sphere = |name| Site::Sphere(body.sphere(name).unwrap());

@@ -25,7 +25,7 @@ use occupant_core::results::channel::Channel;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Code([u8; 16]);
 
-/// Where a channel of ours stands in the dictionary.
+/// Position of one of our channels in the dictionary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Main and fine locations 1 and 2, eight characters.
@@ -36,9 +36,9 @@ pub struct Place {
     pub dimension: &'static str,
     /// Direction: X, Y, Z, R of a resultant, or 0.
     pub direction: char,
-    /// Whether it belongs to the vehicle, not to the occupant.
+    /// Whether it belongs to the vehicle instead of the occupant.
     of_vehicle: bool,
-    /// Their value over ours.
+    /// Ratio of the coded value to ours: 1 or −1.
     pub sign: f64,
 }
 
@@ -59,7 +59,7 @@ impl fmt::Display for Code {
 }
 
 impl Code {
-    /// The code of a place.
+    /// Code of a dictionary position.
     pub fn new(place: &Place, seat: char, dummy: &str, class: Option<ChannelClass>) -> Option<Self> {
         let position = if place.of_vehicle { '0' } else { seat };
         let third = if place.of_vehicle { "00" } else { place.webbing.unwrap_or(dummy) };
@@ -71,7 +71,7 @@ impl Code {
         std::str::from_utf8(&self.0[from..to]).unwrap_or_default()
     }
 
-    /// Our value over theirs, if this is the channel of that name for the occupant on `seat`.
+    /// Ratio of our value to the coded one, if this is the channel of that name for the occupant on `seat`.
     pub fn sign_for(&self, channel: &str, seat: char) -> Option<f64> {
         if let Some(rest) = channel.strip_prefix("belt.") {
             let name = rest.strip_suffix(".force")?;
@@ -90,7 +90,7 @@ impl Code {
         fits.then_some(place.sign)
     }
 
-    /// Where on the vehicle it is an acceleration, and along which axis, from 0.
+    /// Location on the vehicle and axis (from 0) of a vehicle acceleration.
     pub fn vehicle_acceleration(&self) -> Option<(String, usize)> {
         let axis = "XYZ".find(char::from(self.0[14]))?;
         let is_own = self.part(12, 14) == "AC" && self.is_at('0');
@@ -103,7 +103,7 @@ impl Code {
     }
 }
 
-/// Where a channel of a model stands; none for what the dictionary has no place for.
+/// Dictionary position of a model's channel; none if the dictionary has none.
 pub fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     let Some(rest) = channel.name.strip_prefix("belt.") else {
         return place_of_name(&channel.name);
@@ -121,7 +121,7 @@ pub fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     Some(place)
 }
 
-/// Points of webbing (fine location 3) that a belt of this name may mean.
+/// Webbing points (fine location 3) of a belt with this name.
 fn webbing_points(name: &str) -> Option<[&'static str; 2]> {
     let has = |words: &[&str]| words.iter().any(|w| name.contains(w));
     match () {

@@ -6,25 +6,25 @@ use cardio_legacy::{CompartmentLayout, Conversion, ConvertOptions, Deck, ParseOp
 
 use crate::base::{Failure, file_name, input_file};
 
-/// A deck that was read as a scenario.
+/// A deck converted to a scenario.
 pub struct FromDeck {
     /// The scenario.
     pub toml: String,
-    /// What was found in the deck and assumed.
+    /// Conversion report.
     pub words: String,
     /// Whether its plot card asks for the standard plots.
     pub wants_plots: bool,
 }
 
-/// Whether a file that is named like no scenario holds a deck.
+/// Whether a file without the extension of a scenario contains a deck.
 pub fn is_deck(bytes: &[u8]) -> bool {
     Deck::is_likely(bytes)
 }
 
-/// Where decks of a folder have the compartment that no card gives.
+/// File in a deck's folder with the compartment, which cards do not define.
 const COMPARTMENT: &str = "compartment.toml";
 
-/// The layout of a compartment, which says what points of series 8 bound, and where the wheel is.
+/// Layout of a compartment: which surfaces the points of series 8 bound, and the position of the wheel.
 ///
 /// # Errors
 /// A file that cannot be read, or is no layout.
@@ -34,18 +34,18 @@ pub fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
     CompartmentLayout::from_toml(&text).map_err(|reason| Failure::plain(format!("{}: {reason}", path.display())))
 }
 
-/// The file with the compartment of a deck that stands in its folder, if there is one.
+/// The compartment file in a deck's folder, if any.
 pub fn compartment_beside(deck: &Path) -> Option<PathBuf> {
     let beside = deck.with_file_name(COMPARTMENT);
     (deck.is_file() && beside.is_file()).then_some(beside)
 }
 
-/// Says of what compartment a conversion is.
+/// Reports the compartment of a conversion.
 pub fn of_compartment(file: Option<&Path>) -> String {
     file.map_or(String::new(), |file| format!("its compartment comes from {}\n", file.display()))
 }
 
-/// The scenario of the only deck of a file, in the compartment that stands beside it.
+/// The scenario of the only deck of a file, with the compartment file of its folder.
 ///
 /// # Errors
 /// Problems of the deck or its compartment; several decks, of which one is to be chosen; a path that the deck takes from disk.

@@ -17,7 +17,7 @@ use super::results::Results;
 use super::table::{Cell, Form, Kind, Table};
 use crate::base::{file_name, program};
 
-/// The run and what was done to its histories.
+/// The run, and the processing of its histories.
 #[derive(Clone, Debug, Serialize)]
 pub struct About {
     /// Program and version that exported.
@@ -37,16 +37,16 @@ pub struct About {
     /// Coefficients of the filter; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub filter_coefficients: Option<&'static str>,
-    /// What a reader should know.
+    /// Notes for the reader.
     pub notes: Vec<String>,
     /// The columns, time first.
     pub columns: Vec<ColumnAbout>,
-    /// The figures of the run, for the forms that have a table for them.
+    /// Figures of the run, for formats with a table for them.
     #[serde(skip)]
     pub figures: Vec<Figure>,
 }
 
-/// What is known of a column.
+/// Description of a column.
 #[derive(Clone, Debug, Serialize)]
 pub struct ColumnAbout {
     /// The channel.
@@ -57,7 +57,7 @@ pub struct ColumnAbout {
     pub frame: &'static str,
     /// Filter class applied.
     pub filter: String,
-    /// In words.
+    /// Meaning in words.
     pub meaning: String,
 }
 
@@ -75,7 +75,7 @@ impl ColumnAbout {
 }
 
 impl About {
-    /// Of these histories; `filter` in words.
+    /// Description of these histories; `filter` in words.
     pub fn new(
         results: &Results,
         histories: &Histories,
@@ -105,7 +105,7 @@ impl About {
         }
     }
 
-    /// Tables of the figures, of the columns and of the run, beside that of the histories.
+    /// Adds tables of the figures, the columns and the run to that of the histories.
     fn beside(&self, table: &mut Table<Vec<u8>>) {
         use Kind::{MaybeNumber, Text};
         let texts = |texts: &[&str]| texts.iter().map(|text| Cell::text(text)).collect();
@@ -163,7 +163,7 @@ fn heading(column: &ColumnAbout) -> String {
     format!("{}[{}]", column.name, column.unit)
 }
 
-/// A time without the traces of counting it: 0.1 and not 0.10000000000000002.
+/// A time without accumulated rounding errors: 0.1 instead of 0.10000000000000002.
 fn rounded(time_s: f64) -> f64 {
     (time_s * 1e9).round() / 1e9
 }

@@ -4,11 +4,11 @@ use occupant_scenario::Draft;
 
 use super::results::Results;
 
-/// What is missing of a run.
+/// The missing part of a run.
 pub(super) enum Part {
-    /// For all figures, as text.
+    /// Affects all figures; description.
     Whole(String),
-    /// What was before this time, s, for those that do not count from the start.
+    /// The part before this time, s; affects figures that do not start there.
     Rest(f64),
 }
 
@@ -17,7 +17,7 @@ pub(super) fn in_ms(time_s: f64) -> f64 {
 }
 
 impl Results {
-    /// What time a file covers that is not all of its scenario's, as text.
+    /// Description of the covered time if it is not the scenario's whole.
     pub(super) fn span(&self) -> Option<String> {
         let (first, last) = (&self.checkpoints[0], &self.checkpoints[self.checkpoints.len() - 1]);
         let name = self.path.display();
@@ -33,23 +33,23 @@ impl Results {
         Some(format!("{name} covers {from_ms} to {to_ms} ms: it was run with {}", self.given_end()?))
     }
 
-    /// The time that the outputs cover, s.
+    /// Time span of the outputs, s.
     pub fn covers_s(&self) -> [f64; 2] {
         [0, self.checkpoints.len() - 1].map(|i| self.checkpoints[i].time_s)
     }
 
-    /// The end that the command line gave the run, as it was written.
+    /// End time given on the command line, as text.
     fn given_end(&self) -> Option<&str> {
         self.run.get("overrides")?.lines().rev().find(|line| line.starts_with("time.end="))
     }
 
-    /// The end that the scenario's author gave it, s, where it tells one.
+    /// End time given by the scenario, s, if any.
     fn own_end_s(&self) -> Option<f64> {
         let draft = Draft::read(self.scenario_text.as_deref()?, self.format?, "scenario").ok()?;
         draft.places("time.end").ok()?.first()?.si
     }
 
-    /// Which figures of a file that holds a part of a run are not those of the run.
+    /// The missing part, which limits the validity of figures.
     pub(super) fn part(&self) -> Option<Part> {
         let [from_s, to_s] = self.covers_s();
         let first = &self.checkpoints[0];

@@ -26,21 +26,21 @@ use super::scenario::{format_of, stored};
 use super::steps;
 use crate::base::{Failure, ending, input_file, program, quoted, sha256};
 
-/// A run that was recorded.
+/// A recorded run.
 pub struct Results {
     /// The file.
     pub path: PathBuf,
     /// Its SHA-256.
     pub sha256: String,
-    /// What the file says of the run before its start.
+    /// Metadata of the run from its start.
     pub run: BTreeMap<String, String>,
-    /// What the file has lost of the run, as text.
+    /// Description of missing outputs.
     lost: Option<String>,
-    /// Problems of it.
+    /// Defects of the file.
     flaw: Option<String>,
     /// How the run ended.
     status: RunStatus,
-    /// Why, where it did not complete.
+    /// The reason, if it did not complete.
     reason: Option<String>,
     /// The scenario, overrides included.
     pub loaded: Loaded,
@@ -50,17 +50,22 @@ pub struct Results {
     pub scenario_text: Option<String>,
     /// Its format.
     pub(super) format: Option<Format>,
-    /// One an output, at least one, without gaps.
+    /// One per output, at least one, without gaps.
     pub checkpoints: Vec<Checkpoint>,
 }
 
 impl Results {
-    /// Opens a result file, one of a run that did not complete as far as it goes, a damaged one as far as it has all outputs.
+    /// Opens a result file; an incomplete one as far as it goes, a damaged one up to the first missing output.
     ///
     /// # Errors
     /// A file that cannot be read, holds no run, or whose scenario this program refuses.
     pub fn open(path: &Path) -> Result<Self, Failure> {
-        let bytes = input_file::read(path)?;
+        let is_there = path == Path::new("-") || path.exists();
+        let absent = || {
+            let found = format!("{} cannot be read: there is no such file", path.display());
+            Failure::with_help(found, "check the path; `occupant run SCENARIO.toml` writes a result file")
+        };
+        let bytes = input_file::read(path).map_err(|e| if is_there { e } else { absent() })?;
         let mut run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
         if run.run.is_empty() || run.checkpoints.is_empty() {
             return Err(no_results(path, &format!("it contains no outputs of a run{}", run.because())));
@@ -105,7 +110,7 @@ impl Results {
         self.status == RunStatus::Completed
     }
 
-    /// What the run came to, by the one rule; none if it was stopped on its way.
+    /// Outcome of the run, by the common rule; none if it was interrupted.
     pub fn ending(&self) -> Option<Ending> {
         match self.status {
             RunStatus::Completed => Ending::of(&self.outcome()),
@@ -114,7 +119,7 @@ impl Results {
         }
     }
 
-    /// Why its histories are not to be trusted, if its energy balance says so.
+    /// Reason to doubt its histories, if the energy balance is off.
     pub fn doubt(&self) -> Option<String> {
         let energy = self.outcome().energy;
         let worth = match energy.balance {
@@ -125,7 +130,7 @@ impl Results {
         Some(format!("{}: what it holds is {worth}, its energy balance is {}", self.path.display(), energy.found()))
     }
 
-    /// What a user should know before trusting the results, as text.
+    /// Notes to read before using the results.
     pub fn notes(&self) -> Vec<String> {
         let name = self.path.display();
         let mut notes = Vec::new();
@@ -146,13 +151,13 @@ impl Results {
         notes
     }
 
-    /// How often instruments were read, s: at the outputs alone in files of 0.1.0.
+    /// Interval of instrument readings, s: files of 0.1.0 have them at the outputs only.
     pub fn readings_s(&self) -> f64 {
         let are_there = !self.checkpoints[0].peaks.is_empty();
         if are_there { interval_s(&self.model) } else { self.model.setup().time.output_s }
     }
 
-    /// Shows every output to `recorder`, which learns of the begin of the run but not of its end.
+    /// Replays every output to `recorder`, including the start but not the end of the run.
     ///
     /// # Errors
     /// An error of the recorder.
@@ -166,7 +171,7 @@ impl Results {
         Ok(())
     }
 
-    /// Looks at every output.
+    /// Calls `look` for every output.
     ///
     /// # Errors
     /// None for a file that was opened.
@@ -184,7 +189,7 @@ impl Results {
         Ok(series)
     }
 
-    /// The summary of the run, as at its end.
+    /// The summary, as at the end of the run.
     ///
     /// # Errors
     /// None for a file that was opened.
@@ -192,7 +197,7 @@ impl Results {
         self.summary_judged(Options::default())
     }
 
-    /// The same with measures that are filtered and judged as `options` say.
+    /// The summary with measures filtered and compared as `options` require.
     ///
     /// # Errors
     /// None for a file that was opened.
@@ -203,7 +208,7 @@ impl Results {
         self.told(&self.model, &seen)
     }
 
-    /// The same of the case run again, up to the last output, with readings every `interval_s`.
+    /// The summary of a repeated run up to the last output, with readings every `interval_s`.
     ///
     /// # Errors
     /// More outputs than a run may have; a run that fails before.
@@ -225,7 +230,7 @@ impl Results {
         Failure::plain(format!("{}: {what}", self.path.display()))
     }
 
-    /// The summary that was made, of this run however it ended.
+    /// The finished summary, with the status of this run.
     fn told(&self, model: &Model, (summarizer, friction): &(Summarizer, FrictionWatch)) -> Result<Summary, Failure> {
         let mut summary = summarizer.summary(None).ok_or_else(|| self.refused("the run has no summary"))?;
         if self.is_complete() {
@@ -240,7 +245,7 @@ impl Results {
         })
     }
 
-    /// The outcome up to the last output.
+    /// Outcome up to the last output.
     fn outcome(&self) -> Outcome {
         self.checkpoints[self.checkpoints.len() - 1].outcome(&self.model)
     }

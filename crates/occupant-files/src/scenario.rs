@@ -11,7 +11,7 @@ use super::mcap::StoredRun;
 use super::mcap::about::{BEYOND, RESOLVED};
 use crate::base::{Failure, by_ending, ending, file_name, input_file, quoted};
 
-/// Which scenario, and what is changed in it.
+/// A scenario and changes to it.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct ScenarioArgs {
@@ -25,7 +25,7 @@ pub struct ScenarioArgs {
     pub overrides: Vec<String>,
 }
 
-/// A scenario that can be run.
+/// A scenario ready to run.
 pub struct Opened {
     /// The bytes of the file.
     pub bytes: Vec<u8>,
@@ -35,11 +35,11 @@ pub struct Opened {
     pub model: Model,
     /// Warnings, with their places.
     pub warnings: Diagnostics,
-    /// The deck that it was made of.
+    /// The deck that it was converted from.
     pub deck: Option<FromDeck>,
 }
 
-/// The text of a scenario, with the changes applied.
+/// A scenario text with the changes applied.
 pub struct Source {
     bytes: Vec<u8>,
     /// The text with the changes.
@@ -47,7 +47,7 @@ pub struct Source {
     deck: Option<FromDeck>,
 }
 
-/// Reads the scenario, applies the changes and makes the model.
+/// Reads the scenario, applies the changes and builds the model.
 ///
 /// # Errors
 /// A file that cannot be read; everything that is wrong with the scenario, at once.
@@ -92,12 +92,12 @@ pub fn source(args: &ScenarioArgs) -> Result<Source, Failure> {
     Ok(Source { bytes, draft, deck })
 }
 
-/// Changes that are no change of what the title says.
+/// Keys whose changes are not listed in the title.
 const UNTOLD: [&str; 3] = ["title", "notes", "time.end"];
-/// So many changes are named in a title.
+/// Largest number of changes listed in a title.
 const MOST_TOLD: usize = 3;
 
-/// Lets the title say what was changed in the scenario.
+/// Adds the changes to the title.
 pub fn retitle(draft: &mut Draft, overrides: &[String]) {
     let changes = || overrides.iter().filter_map(|assignment| assignment.split_once('='));
     let told: Vec<String> = changes()
@@ -119,7 +119,7 @@ pub fn retitle(draft: &mut Draft, overrides: &[String]) {
     let _ = serde_json::to_string(&format!("{title}, with {words}")).map(|title| draft.set_value("title", &title));
 }
 
-/// Makes the model of a scenario.
+/// Builds the model of a scenario.
 ///
 /// # Errors
 /// Everything that is wrong with the scenario, at once.
@@ -132,27 +132,26 @@ pub fn open_source(args: &ScenarioArgs, source: Source) -> Result<Opened, Failur
     Ok(Opened { bytes, loaded, model, warnings, deck })
 }
 
-/// Reads the files that a scenario names, from the folder that it stands in.
+/// Reads files referred to by a scenario, from its folder.
 pub fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, String> {
     // a file called `-` is not standard input
     let folder = Path::new(".").join(scenario.parent().unwrap_or(Path::new("")));
     move |file| input_file::bytes(&folder.join(file)).map_err(|error| error.to_string())
 }
 
-/// What is made from `of`, a scenario or its results, is not to take the place of: itself, and the tables beside it that the
-/// scenario names.
+/// Inputs that outputs must not replace: the scenario or its results, and the tables it refers to.
 pub fn inputs(of: &Path, loaded: &Loaded) -> Vec<PathBuf> {
     let folder = of.parent().unwrap_or(Path::new(""));
     let tables = loaded.tables();
     std::iter::once(of.to_owned()).chain(tables.iter().map(|(table, _)| folder.join(table))).collect()
 }
 
-/// Files that scenarios name, as they were when the work began: names and bytes.
+/// Files that scenarios refer to, read once: names and bytes.
 #[derive(Default)]
 pub struct Tables(pub Vec<(String, Vec<u8>)>);
 
 impl Tables {
-    /// The bytes of a file, as resolvers of scenarios give them.
+    /// Bytes of a file, for resolvers of scenarios.
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -172,7 +171,7 @@ impl Tables {
     }
 }
 
-/// The scenario that a results file was made from, all that was changed in it included, its model and warnings about it.
+/// The scenario stored in a result file, including all changes, with its model and warnings.
 ///
 /// # Errors
 /// A file without it, or with one that this program cannot read.
@@ -203,7 +202,7 @@ pub fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostic
     Ok((loaded, model, warnings))
 }
 
-/// The scenario of a run in the file of this name: whether it is resolved, its format, its text.
+/// The scenario of a run from the attachment of this name: whether it is resolved, its format, its text.
 fn document<'r>(
     name: &impl std::fmt::Display,
     run: &'r StoredRun,
@@ -221,7 +220,7 @@ fn document<'r>(
     found.ok_or_else(|| Failure::plain(format!("{name} contains no scenario{}", run.because())))
 }
 
-/// The format that the ending of the file name stands for, if any.
+/// The format for the file's extension, if any.
 pub fn format_of(path: &Path) -> Option<Format> {
     by_ending(path, &[("toml", Format::Toml), ("json", Format::Json)])
 }
@@ -236,17 +235,17 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     }
 }
 
-/// The end of a command that a text with problems does not let begin.
+/// Failure of a command because of problems in a text.
 pub fn refused(name: &str, problems: &Diagnostics) -> Failure {
     Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, problems.count(Severity::Error)))
 }
 
-/// So many errors, as text.
+/// Number of errors, as text.
 pub fn counted(errors: usize) -> String {
     if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") }
 }
 
-/// Problems of a text and how many of them are errors.
+/// Problems of a text, and the number of errors.
 pub fn nothing_was_run(problems: &str, name: &str, errors: usize) -> String {
     format!("{problems}\n\n{name}: {}, nothing was run", counted(errors))
 }

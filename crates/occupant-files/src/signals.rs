@@ -11,11 +11,11 @@ use super::channel_code::Code;
 pub struct Recording {
     /// The file.
     pub path: PathBuf,
-    /// SHA-256 of the file; of the test's channel files one after the other.
+    /// SHA-256 of the file, or of the test's channel files in sequence.
     pub sha256: String,
     /// The signals in the file's order.
     pub signals: Vec<Signal>,
-    /// What was taken for granted in reading it.
+    /// Assumptions made in reading it.
     pub notes: Vec<String>,
 }
 
@@ -28,17 +28,17 @@ pub struct Signal {
     pub code: Option<Code>,
     /// Unit as written; none if the file gives none.
     pub unit: Option<String>,
-    /// Its size and dimension; none also for a unit that is not known.
+    /// Its size and dimension; none also for an unknown unit.
     pub scale: Option<Scale>,
     /// Times, s, increasing.
     pub time_s: Vec<f64>,
     /// Values in the file's unit, NaN where missing.
     pub values: Vec<f64>,
-    /// Where it stands, for messages.
+    /// Its position, for messages.
     pub place: String,
 }
 
-/// A finite number as written.
+/// A finite number, parsed.
 pub(super) fn finite(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|value| value.is_finite())
 }
@@ -51,7 +51,7 @@ pub fn scale_of(unit: &str) -> Option<Scale> {
     }
 }
 
-/// Seconds in one of a unit as written; none if it is no unit of time.
+/// Seconds per unit; none if it is no unit of time.
 pub fn seconds_in(unit: &str) -> Option<f64> {
     let scale = parse_heading(unit).ok()?;
     (scale.dimension == Dimension::new(0, 0, 1, 0)).then_some(scale.factor)

@@ -5,7 +5,7 @@ use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::summary::{Caveat, Summary};
 
-/// Caveats of a step that is too long for what acted in the run, or for friction; none under error control.
+/// Caveats of a step too long for the active contacts or for friction; none under error control.
 pub fn caveats(model: &Model, friction: &FrictionWatch, summary: &Summary) -> Vec<Caveat> {
     if !matches!(model.setup().integrator, Integrator::Rk4 { .. }) {
         return Vec::new();

@@ -18,11 +18,11 @@ use serde::{Deserialize, Serialize};
 use super::book::{self, Sheet};
 use crate::base::{Existing, Failure, PartialFile, by_ending, program};
 
-/// So many values are held at a time, but never fewer or more rows than these.
+/// Number of values buffered, but at least and at most this many rows.
 const CELLS: usize = 400_000;
 const ROWS: [usize; 2] = [1024, 16_384];
 
-/// What a column holds; only those that say so may lack values.
+/// Type of a column; only the `Maybe` types may lack values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Whole numbers.
@@ -33,16 +33,16 @@ pub enum Kind {
     MaybeNumber,
     /// Texts.
     Text,
-    /// Texts, some of which are absent.
+    /// Texts, some of which are missing.
     MaybeText,
 }
 
-/// Columns from lists of names that hold the same kind of thing.
+/// Columns from lists of names of the same type.
 pub fn columns(lists: &[(Kind, &[&'static str])]) -> Vec<(&'static str, Kind)> {
     lists.iter().flat_map(|(kind, names)| names.iter().map(|name| (*name, *kind))).collect()
 }
 
-/// A value; in JSON nothing, a number or a text.
+/// A value; in JSON null, a number or a text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Cell {
@@ -78,7 +78,7 @@ impl Cell {
         }
     }
 
-    /// Numbers as the shortest text that is read as the same number.
+    /// A number as the shortest text that reads back to the same number.
     fn shown(&self) -> String {
         match self {
             Cell::Absent => String::new(),
@@ -95,7 +95,7 @@ impl Cell {
     }
 }
 
-/// A text that no spreadsheet takes for a formula: one that begins like it gets an apostrophe. Hidden characters are
+/// A text that no spreadsheet takes for a formula: an apostrophe is added if it begins like one. Hidden characters are
 /// escaped.
 fn harmless(text: &str) -> String {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err();
@@ -103,12 +103,12 @@ fn harmless(text: &str) -> String {
     format!("{mark}{}", plain(text))
 }
 
-/// The form of a file.
+/// File format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Text, with a line of headings.
+    /// Text with a heading line.
     Csv,
-    /// Columns, packed.
+    /// Compressed columns.
     Parquet,
     /// A workbook of Excel.
     Xlsx,
@@ -116,17 +116,17 @@ pub enum Form {
     Mat,
 }
 
-/// The forms by their endings.
+/// Formats by extension.
 const FORMS: [(&str, Form); 4] =
     [("csv", Form::Csv), ("parquet", Form::Parquet), ("xlsx", Form::Xlsx), ("mat", Form::Mat)];
 
 impl Form {
-    /// The form that the file's ending asks for.
+    /// The format for the file's extension.
     pub fn of(path: &Path) -> Option<Form> {
         by_ending(path, &FORMS)
     }
 
-    /// The form of the table asked for.
+    /// The format of a requested table.
     ///
     /// # Errors
     /// Another ending.
@@ -135,7 +135,7 @@ impl Form {
     }
 }
 
-/// A table on its way to `W`.
+/// A table being written to `W`.
 pub struct Table<W: Write + Send> {
     kinds: Vec<Kind>,
     waiting: Vec<Vec<Cell>>,
@@ -170,7 +170,7 @@ impl<W: Write + Send> Table<W> {
         Ok(Table { kinds: columns.iter().map(|(_, kind)| *kind).collect(), waiting: Vec::new(), writer })
     }
 
-    /// Adds a row, a cell for each column: a number, a text or nothing, as the column is of.
+    /// Adds a row with a cell per column, of the column's type.
     ///
     /// # Errors
     /// More or fewer cells than columns; a text among numbers; what the writer refuses.
@@ -198,7 +198,7 @@ impl<W: Write + Send> Table<W> {
         Ok(())
     }
 
-    /// Adds a table beside it, where there is room for one: a sheet of a workbook, a structure of a MAT file.
+    /// Adds another table, where the format allows: a sheet of a workbook, a structure of a MAT file.
     pub fn beside(&mut self, name: &'static str, columns: &[(&str, Kind)], rows: impl IntoIterator<Item = Vec<Cell>>) {
         if let Writer::Book(.., sheets) = &mut self.writer {
             let mut sheet = Sheet::new(name, columns);
@@ -207,7 +207,7 @@ impl<W: Write + Send> Table<W> {
         }
     }
 
-    /// Ends the table and gives back where it went.
+    /// Ends the table and returns its target.
     ///
     /// # Errors
     /// What the writer refuses.
@@ -284,7 +284,7 @@ fn write_group<W: Write + Send>(
     group.close().map(|_| ())
 }
 
-/// Writes values; what stands for one that is absent, in a column that may not lack any.
+/// Writes values, with a placeholder for missing ones in a column that may not lack any.
 fn put<T: DataType>(
     column: &mut SerializedColumnWriter<'_>,
     values: impl Iterator<Item = Option<T::T>>,
@@ -305,7 +305,7 @@ fn reason(error: ParquetError) -> io::Error {
     }
 }
 
-/// A table under its provisional name.
+/// A table under its temporary name.
 pub struct TableFile {
     path: PathBuf,
     table: Table<PartialFile>,
@@ -341,7 +341,7 @@ impl TableFile {
         self.table.beside(name, columns, rows);
     }
 
-    /// Gives the complete file its name.
+    /// Renames the complete file.
     ///
     /// # Errors
     /// What the writer or an error of the operating system.

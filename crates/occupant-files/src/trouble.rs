@@ -29,7 +29,7 @@ impl Trouble {
         Trouble { place, found, expected, hint: None }
     }
 
-    /// How to mend it.
+    /// Adds a remedy.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(shown(&hint.into()));
         self

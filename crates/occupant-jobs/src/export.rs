@@ -9,17 +9,17 @@ use crate::files::history::{Histories, UnitChoice};
 use occupant_files::export::{About, metadata, table};
 use occupant_files::table::Form;
 
-/// The files of a table under their provisional names: all names are taken before one is written.
+/// Files of a table under their temporary names, all created before any is written.
 pub struct TableFiles {
     path: PathBuf,
     form: Form,
     table: PartialFile,
-    /// What describes a CSV table, `NAME.csv-metadata.json`.
+    /// Description of a CSV table, `NAME.csv-metadata.json`.
     beside: Option<PartialFile>,
 }
 
 impl TableFiles {
-    /// Begins the files of a table that is made from `inputs`.
+    /// Creates the files of a table made from `inputs`.
     ///
     /// # Errors
     /// A name that is taken and may not be replaced, or that of an input.
@@ -36,7 +36,7 @@ impl TableFiles {
         Ok(TableFiles { path: path.to_owned(), form, table, beside })
     }
 
-    /// Writes the table, and gives the files their names.
+    /// Writes the table and renames the files.
     ///
     /// # Errors
     /// What the writer or the file system refuses.
@@ -66,7 +66,7 @@ fn beside(table: &Path) -> PathBuf {
     table.with_file_name(name)
 }
 
-/// Writes the files of an ISO-MME test into a provisional folder, which gets its name when all are there.
+/// Writes the files of an ISO-MME test into a temporary folder, renamed when complete.
 ///
 /// # Errors
 /// A folder that exists and may not be replaced or holds something else; what the file system refuses.
@@ -98,7 +98,7 @@ fn write_files(partial: &Path, files: &[(PathBuf, String)]) -> Result<(), Failur
     Ok(())
 }
 
-/// A folder that stands there is replaced only if asked, and only if it is a test of the same name and nothing else.
+/// Refuses to replace a folder unless asked, and unless it is a test of the same name and nothing else.
 fn refuse_other_folder(folder: &Path, test: &str, force: bool) -> Result<(), Failure> {
     let name = folder.display();
     if !force {

@@ -10,8 +10,8 @@ use crate::base::Failure;
 use occupant_files::measured::{MapArgument, Pair, Wanted, pairs};
 use occupant_files::signals::Recording;
 
-/// What every body has, in the order of [`Signals::all_mut`]: its name as a channel of a run, its unit, and whether its axes
-/// are those of a segment (Y left, Z up), not of SAE J211 (Y right, Z down).
+/// Signals of every body, in the order of [`Signals::all_mut`]: channel name, unit, and whether its axes are those of a
+/// segment (Y left, Z up) instead of SAE J211 (Y right, Z down).
 const VECTORS: [(&str, Unit, bool); 7] = [
     ("head.acceleration", MetrePerSecondSquared, true),
     ("upper_torso.acceleration", MetrePerSecondSquared, true),
@@ -21,34 +21,34 @@ const VECTORS: [(&str, Unit, bool); 7] = [
     ("neck.force", Newton, false),
     ("neck.moment", NewtonMetre, false),
 ];
-/// The thighs, behind them.
+/// The femurs, which follow.
 const FEMURS: [&str; 2] = ["right_femur.axial", "left_femur.axial"];
-/// Of so many of the vectors a resultant alone will do.
+/// Number of vectors for which a resultant suffices.
 const ACCELERATIONS: usize = 3;
 
-/// Where a signal goes.
+/// Destination of a signal.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
-    /// The place in [`Signals::all_mut`], and what its values are multiplied by.
+    /// Index in [`Signals::all_mut`], and factor on its values.
     Common(usize, f64),
-    /// The X of an acceleration of which nothing else is known.
+    /// X of an acceleration known only by its resultant.
     Resultant(usize),
     Special(Special),
 }
 
-/// What a test read.
+/// Signals recorded in a test.
 #[derive(Clone, Debug)]
 pub struct Instruments {
     /// The signals, SI units, along SAE J211 axes.
     pub signals: Signals,
-    /// Which signal is read from which column.
+    /// Signals with the columns they are read from.
     pub read: Vec<(String, String)>,
-    /// What was read otherwise than it is written.
+    /// Deviations from the headings.
     pub notes: Vec<String>,
 }
 
 impl Instruments {
-    /// Those of a recording, of the occupant on `seat`; `shift_s` is added to its clock.
+    /// Signals of the occupant on `seat` in a recording; `shift_s` is added to its clock.
     ///
     /// # Errors
     /// A map or unit that does not fit, no signal that a measure is made of, times that are not equally spaced, signals with
@@ -90,7 +90,7 @@ impl Instruments {
     }
 }
 
-/// Whether a signal has all its values; if not, that is noted.
+/// Whether a signal has all values; if not, that is noted.
 fn is_whole(pair: &Pair, notes: &mut Vec<String>) -> bool {
     let missing: Vec<usize> = (0..pair.values.len()).filter(|i| pair.values[*i].is_nan()).collect();
     let Some(first) = missing.first() else { return true };
@@ -104,7 +104,7 @@ fn is_whole(pair: &Pair, notes: &mut Vec<String>) -> bool {
     false
 }
 
-/// Whether maps name signals that measures are made of.
+/// Checks that maps name signals used by measures.
 fn known(maps: &[MapArgument], goals: &[(String, Unit, Goal)]) -> Result<(), Failure> {
     let stranger = maps.iter().map(MapArgument::channel).find(|name| goals.iter().all(|(own, ..)| own != name));
     let Some(stranger) = stranger else { return Ok(()) };
@@ -118,7 +118,7 @@ fn wanted(name: &str, unit: Unit) -> Wanted {
     Wanted { name: name.to_owned(), unit: Some((unit.dimension(), unit.symbol().to_owned())) }
 }
 
-/// Every signal that a measure can be made of.
+/// All signals used by measures.
 fn goals() -> Vec<(String, Unit, Goal)> {
     let mut goals = Vec::new();
     for (v, (name, unit, turned)) in VECTORS.into_iter().enumerate() {
@@ -137,7 +137,7 @@ fn goals() -> Vec<(String, Unit, Goal)> {
     goals
 }
 
-/// Signals with what was found; no numbers of what was not.
+/// Signals with the data found; empty where missing.
 fn filled(found: &[Pair], goals: &[(String, Unit, Goal)]) -> Signals {
     let length = found.first().map_or(0, |pair| pair.values.len());
     let mut common = vec![vec![f64::NAN; length]; 3 * VECTORS.len() + FEMURS.len()];

@@ -11,23 +11,23 @@ use occupant_files::measured::{self, MapArgument, Wanted, pairs};
 use occupant_files::results::Results;
 use occupant_pictures::plot::{Entry, Figure, LimitArgument, Material, Overlay, Plot, RunCurves, figure, standard};
 
-/// What is plotted, and how.
+/// A requested set of plots.
 pub struct Request<'a> {
-    /// At least one.
+    /// Runs, at least one.
     pub runs: &'a [Results],
     /// Names of the channels of each plot; the standard plots if empty.
     pub channels: &'a [String],
-    /// The channel across instead of the time.
+    /// Channel on the horizontal axis; time if absent.
     pub x: Option<&'a str>,
-    /// Limits to be drawn.
+    /// Limits to draw.
     pub limits: &'a [LimitArgument],
     /// Files of measured signals.
     pub tests: &'a [PathBuf],
-    /// Which signal is which channel.
+    /// Assignment of signals to channels.
     pub map: &'a [MapArgument],
     /// Position of the occupant in ISO-MME codes.
     pub seat: char,
-    /// Added to the times of the tests.
+    /// Time added to the tests, s.
     pub shift_s: f64,
     /// Filter and interval.
     pub treatment: Treatment,
@@ -39,7 +39,7 @@ pub struct Request<'a> {
     pub window_s: [f64; 2],
 }
 
-/// The plots, and what a reader should know of them.
+/// The plots, and notes on them.
 ///
 /// # Errors
 /// Channels that no run has, signals that belong to no channel, channels of different units in a plot.
@@ -71,7 +71,7 @@ pub fn plots(request: &Request<'_>) -> Result<(Vec<Figure>, Vec<String>), Failur
     Ok((figures.map_err(|reason| Failure::with_help(reason, separate))?, notes))
 }
 
-/// The standard plots, with the channels that any of the runs has; those that others have beside the first run's stand behind.
+/// Standard plots with the channels of any run; those missing in the first run come last.
 fn standard_plots(runs: &[Results]) -> Vec<Plot> {
     let mut plots = standard(&runs[0].model, runs.len() > 1);
     for more in runs[1..].iter().flat_map(|other| standard(&other.model, true)) {
@@ -86,7 +86,7 @@ fn standard_plots(runs: &[Results]) -> Vec<Plot> {
     plots
 }
 
-/// A plot of channels by name, as the first run that has them knows them.
+/// A plot of named channels, as defined by the first run that has them.
 fn own_plot(names: &str, request: &Request<'_>) -> Result<Plot, Failure> {
     let mut first_refusal = None;
     for run in request.runs {
@@ -113,7 +113,7 @@ fn plot_of(names: &str, channels: &[Channel], axes: AxisChoice) -> Plot {
     }
 }
 
-/// Every channel that some plot needs, once.
+/// Channels needed by any plot, each once.
 fn channel_names(plots: &[Plot], x: Option<&str>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let drawn = plots.iter().flat_map(|plot| &plot.entries).map(|e| e.channel.as_str());
@@ -147,7 +147,7 @@ fn run_curves(request: &Request<'_>, names: &[String], notes: &mut Vec<String>) 
     Ok(curves)
 }
 
-/// Names of runs in legends: their files' names, as much of the path as tells them apart.
+/// Names of runs in legends: file names, with as much of the path as distinguishes them.
 fn labels(runs: &[Results]) -> Vec<String> {
     if runs.len() == 1 {
         return vec![String::new()];

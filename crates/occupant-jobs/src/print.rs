@@ -9,7 +9,7 @@ use occupant_files::scenario::stored;
 
 use crate::base::{Failure, input_file};
 
-/// Reads a result file; beside its case, what is wrong with the file.
+/// Reads a result file: its case, and defects of the file.
 ///
 /// # Errors
 /// A file that `occupant run` has not written, that lacks its scenario or a table that it names, or whose scenario or

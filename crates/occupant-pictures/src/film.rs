@@ -14,13 +14,13 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 use super::format::render;
 use occupant_files::base::by_ending;
 
-/// Frames a second; those of a GIF last whole hundredths.
+/// Frames per second; those of a GIF last whole hundredths.
 pub const FRAMES_A_SECOND: u16 = 25;
-/// Pixels for each unit of the drawing.
+/// Pixels per drawing unit.
 const PIXELS: f64 = 1.25;
 /// Frames rendered before they are encoded.
 const AT_ONCE: usize = 32;
-/// Between the best (1) and the fastest (30) choice of colours: drawings have few.
+/// Colour quantisation, from best (1) to fastest (30): drawings have few colours.
 const COLOUR_SPEED: i32 = 10;
 /// The encoder of MP4.
 const ENCODER: &str = "ffmpeg";
@@ -30,7 +30,7 @@ const ENCODER: &str = "ffmpeg";
 pub enum Film {
     /// A moving GIF.
     Gif,
-    /// H.264 in MP4, by an encoder of the machine.
+    /// H.264 in MP4, by an external encoder.
     Mp4,
 }
 
@@ -38,12 +38,12 @@ pub enum Film {
 pub type Draw<'a> = &'a (dyn Fn(usize) -> String + Sync);
 
 impl Film {
-    /// The kind that the file's ending asks for; none for another ending.
+    /// The kind for the file's extension; none for another.
     pub fn of(path: &Path) -> Option<Self> {
         by_ending(path, &[("gif", Film::Gif), ("mp4", Film::Mp4)])
     }
 
-    /// The bytes of the film of so many frames.
+    /// Bytes of a film with this many frames.
     ///
     /// # Errors
     /// A frame that cannot be rendered; an encoder that is not there or fails.
@@ -55,7 +55,7 @@ impl Film {
     }
 }
 
-/// Hands the frames over in their order, each as `make` has it of its pixels.
+/// Passes the frames on in order, each converted by `make`.
 fn each<F: Send>(
     count: usize,
     draw: Draw<'_>,
@@ -96,7 +96,7 @@ fn gif(count: usize, draw: Draw<'_>) -> Result<Vec<u8>, String> {
     encoder.into_inner().map_err(|error| format!("the film cannot be written as GIF: {error}"))
 }
 
-/// The place in the palette of a pixel that stays as it is.
+/// Palette index of an unchanged pixel.
 const UNCHANGED: u8 = 255;
 
 /// The colours of a film.
@@ -106,7 +106,7 @@ struct Colours {
 }
 
 impl Colours {
-    /// Those of some of its frames.
+    /// Palette of some of its frames.
     fn of(frames: &[Pixmap]) -> Self {
         let pixels: Vec<u8> = frames.iter().flat_map(Pixmap::data).copied().collect();
         let nearest = NeuQuant::new(COLOUR_SPEED, usize::from(UNCHANGED), &pixels);
@@ -115,7 +115,7 @@ impl Colours {
         Colours { nearest, palette }
     }
 
-    /// The place in the palette of each pixel.
+    /// Palette index of each pixel.
     fn indices(&self, pixels: &Pixmap) -> Vec<u8> {
         let mut known = HashMap::new();
         let index = |pixel: &PremultipliedColorU8| {
@@ -126,7 +126,7 @@ impl Colours {
     }
 }
 
-/// The rectangle in which a frame differs from the one that is shown.
+/// Bounding rectangle of the changes from the shown frame.
 fn changes(shown: &[u8], frame: &[u8], width: usize) -> gif::Frame<'static> {
     let differs = |at: &usize| shown.get(*at) != Some(&frame[*at]);
     let places = || (0..frame.len()).filter(differs);
@@ -168,7 +168,7 @@ fn mp4(count: usize, draw: Draw<'_>) -> Result<Vec<u8>, String> {
     encoder.ok_or_else(|| "the film has no frames".to_owned())?.finish()
 }
 
-/// The encoder at work: pixels go in, the film comes out.
+/// The running encoder: pixels in, film out.
 struct Encoder {
     child: Child,
     film: thread::JoinHandle<std::io::Result<Vec<u8>>>,

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// What a picture's `font-family` says: ours first, then what a browser has.
+/// Font family: ours first, then fallbacks of browsers.
 pub const FAMILY: &str = "DejaVu Sans, Verdana, Arial, sans-serif";
 const REGULAR: &[u8] = include_bytes!("../assets/fonts/DejaVuSans.ttf");
 const BOLD: &[u8] = include_bytes!("../assets/fonts/DejaVuSans-Bold.ttf");
@@ -38,7 +38,7 @@ pub fn width(text: &str, size: f64, weight: Weight) -> f64 {
     text.chars().map(|c| advance(c).unwrap_or(size)).sum()
 }
 
-/// A length of font units at a font size, in fixed point (16.16) as FreeType scales advances.
+/// A length of font units at a font size, in fixed point (16.16), rounded as FreeType does.
 fn scaled(units: u16, size: f64, units_per_em: u16) -> f64 {
     let em = u64::from(units_per_em);
     let size_26_6 = (size as f32 * 64.0) as u64;
@@ -46,8 +46,8 @@ fn scaled(units: u16, size: f64, units_per_em: u16) -> f64 {
     f64::from(((u64::from(units) * scale_16_16 + 32) / 64) as f32 / 65536.0)
 }
 
-/// The outlines of a text's letters one after the other, from left to right, without kerning, and where the next letter
-/// would begin: data of an SVG path that begins at 0 on its base line. A letter that the font lacks shows as its empty box.
+/// Outlines of a text, left to right, without kerning, as SVG path data starting at 0 on the base line, and the
+/// position after the last letter. A missing letter shows as an empty box.
 pub fn outline(text: &str, size: f64, weight: Weight) -> (String, f64) {
     let mut pen = Pen { path: String::new(), x: 0.0, scale: 0.0 };
     if let Some(face) = weight.face() {
@@ -64,9 +64,9 @@ pub fn outline(text: &str, size: f64, weight: Weight) -> (String, f64) {
 /// Writes outlines in font units (y up) as path data.
 struct Pen {
     path: String,
-    /// Where the present letter begins.
+    /// Start of the present letter.
     x: f64,
-    /// User units a font unit.
+    /// User units per font unit.
     scale: f64,
 }
 

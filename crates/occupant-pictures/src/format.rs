@@ -27,12 +27,12 @@ pub enum Format {
 }
 
 impl Format {
-    /// The kind that the file's ending asks for; none for another ending.
+    /// The kind for the file's extension; none for another.
     pub fn of(path: &Path) -> Option<Self> {
         by_ending(path, &[("svg", Format::Svg), ("png", Format::Png)])
     }
 
-    /// The kind of the picture asked for.
+    /// The kind of a requested picture.
     ///
     /// # Errors
     /// Another ending.
@@ -40,7 +40,7 @@ impl Format {
         Format::of(path).ok_or_else(|| Failure::ending(path, ".svg or .png"))
     }
 
-    /// The ending of such a file.
+    /// Its extension.
     pub const fn ending(self) -> &'static str {
         match self {
             Format::Svg => "svg",
@@ -48,7 +48,7 @@ impl Format {
         }
     }
 
-    /// The bytes of the file for a drawing in SVG; `pixels` is the number of pixels a user unit (for PNG alone).
+    /// Bytes of the file for an SVG drawing; `pixels` is the number of pixels per user unit (PNG only).
     ///
     /// # Errors
     /// A drawing that is too large to render.
@@ -60,14 +60,14 @@ impl Format {
     }
 }
 
-/// Most pixels of a picture: one more would need over 1 GB.
+/// Largest number of pixels: it takes 1 GB.
 const MOST_PIXELS: f64 = 250e6;
 
 fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
     render(svg, pixels)?.encode_png().map_err(|e| format!("the picture cannot be written as PNG: {e}"))
 }
 
-/// Renders a drawing with `pixels` pixels a user unit.
+/// Renders a drawing with `pixels` pixels per user unit.
 ///
 /// # Errors
 /// Text that is no SVG; a picture without or with too many pixels.
@@ -90,7 +90,7 @@ pub(super) fn render(svg: &str, pixels: f64) -> Result<Pixmap, String> {
     Ok(pixmap)
 }
 
-/// The drawing with a path of outlines in place of each text.
+/// The drawing with each text replaced by its outlines.
 fn with_outlines(svg: &str, document: &Document<'_>) -> String {
     let mut out = String::with_capacity(2 * svg.len());
     let mut rest = 0;
@@ -104,7 +104,7 @@ fn with_outlines(svg: &str, document: &Document<'_>) -> String {
     out
 }
 
-/// The path that shows a text. What says how it is painted is passed on; size, weight and anchor may stand at a group.
+/// Outlines of a text as a path. Paint attributes are kept; size, weight and anchor may be inherited from a group.
 fn as_path(text: Node<'_, '_>) -> String {
     let inherited = |name| text.ancestors().find_map(|n| n.attribute(name));
     let size = inherited("font-size").and_then(|s| s.parse().ok()).unwrap_or(12.0);

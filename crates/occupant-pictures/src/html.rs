@@ -7,7 +7,7 @@ use std::path::Path;
 use super::svg::escape;
 use occupant_files::base::program;
 
-/// What a page says in its head: which program made it, and of what.
+/// Meta data of a page: the program and the subject.
 pub fn about(subject: &str) -> String {
     format!("<meta name=\"generator\" content=\"{}\">\n{}", escape(&program()), described(subject))
 }
@@ -16,10 +16,10 @@ fn described(subject: &str) -> String {
     format!("<meta name=\"description\" content=\"{}\">", escape(subject))
 }
 
-/// A head is no longer than so many bytes, up to its style.
+/// Largest length of a head up to its style, bytes.
 const HEAD: u64 = 4096;
 
-/// Whether a file is a page that this program, of whatever version, made of the same subject.
+/// Whether a file is a page of the same subject made by any version of this program.
 pub fn is_page_of(path: &Path, subject: &str) -> bool {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
@@ -34,27 +34,27 @@ pub struct Html(String);
 /// A cell of a table.
 #[derive(Clone, Debug)]
 pub enum Cell {
-    /// Words, to the left.
+    /// Text, left-aligned.
     Words(String),
-    /// A number, to the right.
+    /// A number, right-aligned.
     Number(String),
-    /// A number that a rule marks, and why.
+    /// A number with a mark, and its reason.
     Marked(String, String),
 }
 
 impl Html {
-    /// An element of one text; `tag` may carry attributes of ours.
+    /// An element with text; `tag` may include trusted attributes.
     pub fn text(&mut self, tag: &str, text: &str) {
         let name = tag.split(' ').next().unwrap_or(tag);
         self.0.push_str(&format!("<{tag}>{}</{name}>\n", escape(text)));
     }
 
-    /// Something that is HTML already.
+    /// Inserts HTML unchanged.
     pub fn raw(&mut self, html: &str) {
         self.0.push_str(html);
     }
 
-    /// Two columns of words.
+    /// A table of two text columns.
     pub fn facts(&mut self, facts: &[(&str, String)]) {
         self.raw("<div class=\"scroll\"><table>\n");
         for (name, text) in facts {
@@ -64,12 +64,12 @@ impl Html {
         self.raw("</table></div>\n");
     }
 
-    /// Begins what stands folded under a line.
+    /// Starts a folded section with this heading.
     pub fn fold(&mut self, line: &str) {
         self.raw(&format!("<details>\n<summary>{}</summary>\n", escape(line)));
     }
 
-    /// Ends it.
+    /// Ends the folded section.
     pub fn unfold(&mut self) {
         self.raw("</details>\n");
     }
@@ -79,7 +79,7 @@ impl Html {
         self.table_under(&head.iter().map(|name| escape(name)).collect::<Vec<_>>(), rows);
     }
 
-    /// The same under heads that are HTML already.
+    /// A table whose headings are HTML.
     pub fn table_under(&mut self, head: &[String], rows: &[Vec<Cell>]) {
         self.raw("<div class=\"scroll\"><table>\n<tr>");
         for (i, name) in head.iter().enumerate() {
@@ -113,7 +113,7 @@ impl Cell {
         }
     }
 
-    /// A number, marked or not.
+    /// A number, with a mark if there is one.
     pub fn of(text: String, mark: Option<String>) -> Cell {
         match mark {
             Some(why) => Cell::Marked(text, why),

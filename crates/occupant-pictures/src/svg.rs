@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use super::font::{self, Weight};
 use placed_text::trimmed;
 
-/// A drawing that grows; x to the right, y down, user units.
+/// A drawing under construction; x to the right, y down, user units.
 #[derive(Clone, Debug)]
 pub struct Svg {
     size: [f64; 2],
@@ -18,10 +18,10 @@ pub struct Svg {
     open: usize,
 }
 
-/// Which part of a text stands at its place.
+/// Anchor of a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchor {
-    /// Its begin.
+    /// Its start.
     #[default]
     Start,
     /// Its middle.
@@ -30,20 +30,20 @@ pub enum Anchor {
     End,
 }
 
-/// How a text is set.
+/// Style of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Text<'a> {
     /// Font size.
     pub size: f64,
     /// Colour.
     pub fill: &'a str,
-    /// What stands at the place.
+    /// Anchor.
     pub anchor: Anchor,
     /// How bold.
     pub weight: Weight,
-    /// Turn about the place, degrees clockwise.
+    /// Rotation about the anchor, degrees clockwise.
     pub turn_deg: f64,
-    /// Colour of a rim that keeps it legible over lines.
+    /// Colour of an outline that keeps it legible over lines.
     pub halo: Option<&'a str>,
 }
 
@@ -54,7 +54,7 @@ impl Default for Text<'_> {
 }
 
 impl Svg {
-    /// An empty drawing with a title for those who cannot see it.
+    /// An empty drawing with a title for screen readers.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
         Svg { size: [width, height], title: title.to_owned(), body: String::new(), open: 0 }
     }
@@ -65,7 +65,7 @@ impl Svg {
         self.open += 1;
     }
 
-    /// Begins a group that shows only what lies in a rectangle.
+    /// Begins a group clipped to a rectangle.
     pub fn begin_clip(&mut self, id: &str, x: f64, y: f64, width: f64, height: f64) {
         let (id, area) = (escape(id), rectangle(x, y, width, height));
         self.line(&format!("<clipPath id=\"{id}\"><rect {area}/></clipPath>"));
@@ -78,7 +78,7 @@ impl Svg {
         self.line("</g>");
     }
 
-    /// Gives the present group a name that viewers show as a tip.
+    /// Adds a tooltip to the present group.
     pub fn tip(&mut self, text: &str) {
         self.line(&format!("<title>{}</title>", escape(text)));
     }
@@ -111,7 +111,7 @@ impl Svg {
         self.line(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" {attributes}/>"));
     }
 
-    /// Dots as wide as their line, whose ends must be round: one element however many they are.
+    /// Dots as wide as their line, whose caps must be round: a single element for any number.
     pub fn dots(&mut self, centres: &[[f64; 2]], attributes: &str) {
         let mut data = String::with_capacity(14 * centres.len());
         for [x, y] in centres {
@@ -125,7 +125,7 @@ impl Svg {
         self.line(&format!("<path d=\"{data}\" {attributes}/>"));
     }
 
-    /// A text with its base line at a place.
+    /// A text with its base line at a point.
     pub fn text(&mut self, at: [f64; 2], text: &str, style: &Text<'_>) {
         let [x, y] = at.map(number);
         let mut tag = format!("<text x=\"{x}\" y=\"{y}\"");
@@ -181,7 +181,7 @@ impl Svg {
     }
 }
 
-/// A number of an SVG: two decimals, no trailing zeros, 0 for what is no number.
+/// A number in SVG: two decimals, no trailing zeros, 0 for NaN.
 pub fn number(value: f64) -> String {
     if !value.is_finite() {
         return "0".to_owned();

@@ -22,7 +22,7 @@ pub(crate) struct Batch<F> {
     pub(crate) count: u64,
 }
 
-/// What a table holds of a run.
+/// Row of a run in the table.
 pub(crate) struct Row {
     pub(crate) index: u64,
     ending: String,
@@ -35,7 +35,7 @@ impl Row {
     }
 }
 
-/// Names of all figures, each once: what is varied may add some, such as those of a belt.
+/// Names of all figures, each once; parameters may add some, such as those of a belt.
 fn names(rows: &[Row]) -> Vec<&str> {
     let (mut known, mut names) = (HashSet::new(), Vec::new());
     for (name, _) in rows.iter().flat_map(|row| &row.figures) {
@@ -46,7 +46,7 @@ fn names(rows: &[Row]) -> Vec<&str> {
     names
 }
 
-/// What ends all runs.
+/// An error that ends all runs.
 pub(crate) struct Failed(String);
 
 impl From<Unrecorded> for Failed {
@@ -56,8 +56,8 @@ impl From<Unrecorded> for Failed {
 }
 
 impl<F: Fn(u64) -> Result<Model, Diagnostics> + Sync> Batch<F> {
-    /// Rows in the order of their numbers, computed on `threads` threads, all cores if None; `inputs` puts the columns of what was varied.
-    /// Then come `ending` and every figure, NaN where there is none.
+    /// Rows in the order of the runs, computed on `threads` threads, all cores if None; `inputs` adds the columns of
+    /// the parameters. Then `ending` and every figure, NaN where missing.
     pub(crate) fn table<'py>(
         &self,
         py: Python<'py>,

@@ -6,7 +6,7 @@ use pythonize::depythonize;
 
 use crate::trouble::plain;
 
-/// A value as an override is written: TOML, or `null`, which takes away.
+/// A value as an override: TOML, or `null`, which removes it.
 pub(crate) fn assigned(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if value.is_none() {
         return Ok("null".to_owned());
@@ -27,10 +27,10 @@ pub(crate) fn json(dict: &Bound<'_, PyAny>) -> PyResult<String> {
     serde_json::to_string_pretty(&value).map_err(plain)
 }
 
-/// Deeper than this no scenario is.
+/// Largest nesting depth of a scenario.
 const DEEPEST: usize = 64;
 
-/// Refuses what contains itself, or is nested without end.
+/// Refuses recursive and deeply nested values.
 fn bounded(value: &Bound<'_, PyAny>, within: &mut Vec<usize>) -> PyResult<()> {
     let id = value.as_ptr() as usize;
     if within.contains(&id) {
@@ -51,7 +51,7 @@ fn bounded(value: &Bound<'_, PyAny>, within: &mut Vec<usize>) -> PyResult<()> {
     Ok(())
 }
 
-/// NumPy's numbers and arrays as Python's.
+/// NumPy numbers and arrays as Python's.
 fn plainly<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     if value.hasattr("tolist")? { value.call_method0("tolist") } else { Ok(value.clone()) }
 }

@@ -13,14 +13,14 @@ use pyo3::types::PyList;
 use crate::live::Trouble;
 use crate::trouble::plain;
 
-/// A force as Python gives it: its places by name, and what computes it.
+/// A force defined in Python: its points by name, and its function.
 pub(crate) struct Brought {
     pub(crate) name: String,
     pub(crate) places: Vec<Where>,
     pub(crate) function: Py<PyAny>,
 }
 
-/// A place by name.
+/// A point by name.
 #[derive(Clone, Debug)]
 pub(crate) enum Where {
     Sphere(String),
@@ -61,14 +61,14 @@ impl Where {
 }
 
 impl Brought {
-    /// As a setup has it.
+    /// The force in the form of a setup.
     pub(crate) fn own(&self, py: Python<'_>, setup: &Setup, trouble: Trouble) -> PyResult<OwnForce> {
         let places = self.places.iter().map(|one| one.place(setup)).collect::<PyResult<Vec<_>>>()?;
         Ok(OwnForce::new(&self.name, Called { places, function: self.function.clone_ref(py), trouble }))
     }
 }
 
-/// A force that Python computes.
+/// A force computed by Python.
 struct Called {
     places: Vec<Place>,
     function: Py<PyAny>,
@@ -82,7 +82,7 @@ impl fmt::Debug for Called {
 }
 
 impl Called {
-    /// What the function says: a force for each place, space axes, N.
+    /// Calls the function: a force for each point, space axes, N.
     fn ask(&self, scene: &Scene<'_>) -> PyResult<Vec<[f64; 3]>> {
         Python::attach(|py| {
             let motions: Vec<_> = self.places.iter().map(|place| scene.motion(place)).collect();

@@ -17,26 +17,26 @@ use pythonize::pythonize;
 
 use crate::trouble::plain;
 
-/// A run under way.
+/// A run in progress.
 #[pyclass(module = "occupant")]
 pub(crate) struct LiveRun {
     model: Arc<Model>,
     run: Stepped<'static>,
     summarizer: Summarizer,
-    /// The first exception of a force that Python brought.
+    /// The first exception of a Python force.
     trouble: Trouble,
 }
 
-/// Where forces that Python brought leave their exceptions.
+/// Exceptions of Python forces.
 pub(crate) type Trouble = Arc<Mutex<Option<PyErr>>>;
 
-/// An exception that a force left, or else what the simulator says.
+/// The exception of a force, or else the simulator's error.
 pub(crate) fn raised(trouble: &Trouble, error: impl std::fmt::Display) -> PyErr {
     let left = trouble.lock().unwrap_or_else(PoisonError::into_inner).take();
     left.unwrap_or_else(|| plain(error))
 }
 
-/// Place, attitude (roll, pitch, yaw in rad), velocity and rates of the three angles, vehicle-space axes.
+/// Position, attitude (roll, pitch, yaw in rad), velocity and rates of the three angles, vehicle-space axes.
 pub(crate) fn state(place: [f64; 3], attitude: [f64; 3], velocity: [f64; 3], rates: [f64; 3]) -> VehicleState {
     let [roll_rad, pitch_rad, yaw_rad] = attitude;
     VehicleState {
@@ -72,22 +72,22 @@ impl LiveRun {
         self.run.end_s()
     }
 
-    /// Up to when the motion of the vehicle is known, s.
+    /// Time up to which the motion of the vehicle is known, s.
     #[getter]
     fn known_until(&self) -> f64 {
         self.run.known_until_s()
     }
 
-    /// Tells how the vehicle moves up to `until`, s: accelerations of its c.g., m/s², and of its turning, rad/s², along the
-    /// fixed axes x forward, y right, z down.
+    /// Gives the vehicle's motion up to `until`, s: acceleration of its c.g., m/s², and angular acceleration, rad/s²,
+    /// along the fixed axes x forward, y right, z down.
     #[pyo3(signature = (until, acceleration, angular=[0.0; 3]))]
     fn push(&mut self, until: f64, acceleration: [f64; 3], angular: [f64; 3]) -> PyResult<()> {
         let input = VehicleInput::Acceleration { linear_m_s2: acceleration.into(), angular_rad_s2: angular.into() };
         self.run.push(until, &input).map_err(plain)
     }
 
-    /// Tells where the vehicle is at `until`, s, and how it moves there: place, m, roll, pitch and yaw, rad, velocity, m/s, and
-    /// the rates of the angles, rad/s.
+    /// Gives the vehicle's state at `until`, s: position, m, roll, pitch and yaw, rad, velocity, m/s, and the rates of
+    /// the angles, rad/s.
     #[pyo3(signature = (until, place, velocity, attitude=[0.0; 3], rates=[0.0; 3]))]
     fn push_state(
         &mut self,
@@ -100,7 +100,7 @@ impl LiveRun {
         self.run.push(until, &VehicleInput::State(state(place, attitude, velocity, rates))).map_err(plain)
     }
 
-    /// Steps to a time, s; to what is known of the vehicle, or to the end, if none is given.
+    /// Steps to a time, s; by default to the end of the known vehicle motion, or to the end of the run.
     #[pyo3(signature = (to=None))]
     fn advance(&mut self, py: Python<'_>, to: Option<f64>) -> PyResult<()> {
         let to_s = to.unwrap_or_else(|| self.run.known_until_s().min(self.run.end_s()));
@@ -108,7 +108,8 @@ impl LiveRun {
         py.detach(|| run.advance_to(to_s)).map_err(|error| raised(&self.trouble, error))
     }
 
-    /// Strikes a segment: an impulse, N·s, space axes (x forward, y left, z up), at a point from the segment's lower end, m.
+    /// Applies an impulse to a segment, N·s, space axes (x forward, y left, z up), at a point from the segment's lower
+    /// end, m.
     #[pyo3(signature = (segment, impulse, at=[0.0; 3]))]
     fn kick(&mut self, segment: &str, impulse: [f64; 3], at: [f64; 3]) -> PyResult<()> {
         let tree = self.model.body().tree;
@@ -117,13 +118,13 @@ impl LiveRun {
         self.run.kick(segment, Point3::from(at), Vector3::from(impulse)).map_err(plain)
     }
 
-    /// The present value of a channel, in its SI unit.
+    /// Present value of a channel, in its SI unit.
     fn __getitem__(&mut self, name: &str) -> PyResult<f64> {
         let channel = self.channel(name)?;
         self.run.look(|sample| channel.value(sample)).map_err(|error| raised(&self.trouble, error))
     }
 
-    /// The present values of all channels that match one of `patterns`, by name.
+    /// Present values of all channels that match one of `patterns`, by name.
     #[pyo3(signature = (*patterns))]
     fn values<'py>(&mut self, py: Python<'py>, patterns: Vec<String>) -> PyResult<Bound<'py, PyDict>> {
         let wanted: Vec<Channel> = patterns.iter().flat_map(|pattern| matching(&self.model, pattern)).collect();
@@ -135,13 +136,13 @@ impl LiveRun {
         Ok(dict)
     }
 
-    /// Counts the present state as an output of the run: `summary` is made of outputs.
+    /// Records the present state as an output of the run, from which `summary` is computed.
     fn record(&mut self) -> PyResult<()> {
         let recorded = self.run.record(&mut self.summarizer);
         recorded.map(|_| ()).map_err(|error| raised(&self.trouble, error))
     }
 
-    /// What `occupant run --json` prints of a run that ends here.
+    /// The content of `occupant run --json` for a run that ends here.
     fn summary(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let mut summarizer = self.summarizer.clone();
         let ended = self.run.clone().end(Status::Completed, &mut summarizer as &mut dyn Recorder);
@@ -150,18 +151,18 @@ impl LiveRun {
         Ok(pythonize(py, &summary)?.unbind())
     }
 
-    /// All of the run as bytes: `load` continues from there.
+    /// The complete state of the run as bytes, for `load`.
     fn save(&mut self) -> PyResult<Vec<u8>> {
         self.run.save().map_err(plain)
     }
 
-    /// Goes back, or ahead, to where a run of this scenario was saved.
+    /// Restores a state saved from a run of this scenario.
     fn load(&mut self, bytes: &[u8]) -> PyResult<()> {
         self.run = Stepped::load_shared(self.model.clone(), bytes).map_err(plain)?;
         Ok(())
     }
 
-    /// The same run, to go on apart.
+    /// An independent copy of the run.
     fn copy(&self) -> Self {
         LiveRun {
             model: self.model.clone(),

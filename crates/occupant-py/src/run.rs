@@ -15,7 +15,7 @@ use pythonize::pythonize;
 
 use crate::trouble::plain;
 
-/// A run that has ended.
+/// A completed run.
 #[pyclass(module = "occupant", frozen)]
 pub(crate) struct Run {
     model: Model,
@@ -59,14 +59,14 @@ impl Run {
         Ok(pythonize(py, &self.summary.status)?.unbind())
     }
 
-    /// What `occupant run --json` prints: peaks, contacts, measures, caveats, energy balance.
+    /// The content of `occupant run --json`: peaks, contacts, measures, caveats, energy balance.
     #[getter]
     fn summary(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         Ok(pythonize(py, &self.summary)?.unbind())
     }
 
-    /// Injury measures by name, in the units of the summary; None if there is no value. Of several occupants the name of each
-    /// and a dot stand before those of its measures.
+    /// Injury measures by name, in the units of the summary; None without a value. With several occupants, names start
+    /// with the occupant's name and a dot.
     #[getter]
     fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
@@ -77,7 +77,7 @@ impl Run {
         Ok(dict)
     }
 
-    /// Figures that are not to be quoted as they stand, and why.
+    /// Results that should not be quoted, with reasons.
     #[getter]
     fn caveats(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         Ok(pythonize(py, &self.summary.caveats)?.unbind())
@@ -89,7 +89,7 @@ impl Run {
         self.checkpoints.iter().map(|at| at.time_s).collect::<Vec<_>>().into_pyarray(py)
     }
 
-    /// The channels that match `pattern`, in which a star stands for anything: dicts of `name`, `unit`, `meaning`.
+    /// Channels that match `pattern`, where `*` matches anything: dicts of `name`, `unit`, `meaning`.
     #[pyo3(signature = (pattern="*"))]
     fn channels<'py>(&self, py: Python<'py>, pattern: &str) -> PyResult<Bound<'py, PyList>> {
         let list = PyList::empty(py);
@@ -103,7 +103,7 @@ impl Run {
         Ok(list)
     }
 
-    /// The time history of a channel, a value for each output time, in its SI unit.
+    /// Time history of a channel, a value per output time, in its SI unit.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let channel = find(&self.model, name).map_err(|unknown| PyKeyError::new_err(unknown.to_string()))?;
         let series = py.detach(|| self.series(vec![channel]))?;

@@ -20,19 +20,19 @@ use crate::live::{LiveRun, Trouble, state};
 use crate::run::Run;
 use crate::trouble::{plain, problems, refused};
 
-/// A scenario: a file in TOML or JSON, or a dict of its keys. Files that it names are looked for beside it.
+/// A scenario: a TOML or JSON file, or a dict of its keys. Files that it refers to are searched in its folder.
 #[pyclass(module = "occupant", skip_from_py_object)]
 #[derive(Clone)]
 pub(crate) struct Scenario {
     pub(crate) draft: Draft,
     folder: PathBuf,
-    /// Forces that Python brings.
+    /// Forces defined in Python.
     forces: Vec<Arc<Brought>>,
 }
 
 #[pymethods]
 impl Scenario {
-    /// `source`: the path of a file, or a dict. A dict's files are looked for in the working folder.
+    /// `source`: the path of a file, or a dict. Files of a dict are searched in the working folder.
     #[new]
     fn new(source: &Bound<'_, PyAny>) -> PyResult<Self> {
         if source.is_instance_of::<PyDict>() {
@@ -42,7 +42,7 @@ impl Scenario {
         Self::open(&path)
     }
 
-    /// A scenario from its text, `format` "toml" or "json"; files that it names are looked for in `folder`.
+    /// A scenario from its text, `format` "toml" or "json"; files that it refers to are searched in `folder`.
     #[staticmethod]
     #[pyo3(signature = (text, format="toml", folder=PathBuf::new()))]
     fn from_text(text: &str, format: &str, folder: PathBuf) -> PyResult<Self> {
@@ -55,8 +55,8 @@ impl Scenario {
         Ok(Scenario::of(draft, folder))
     }
 
-    /// The value at a path, `scenario["joints.neck.damping"]`, presets included: a number, a text with its unit, a list, a dict of
-    /// all that a path with a star leads to.
+    /// The value at a path, `scenario["joints.neck.damping"]`, presets included: a number, a text with its unit, a
+    /// list, or for a path with `*` a dict of all matches.
     fn __getitem__<'py>(&self, py: Python<'py>, path: &str) -> PyResult<Bound<'py, PyAny>> {
         let mut found = self.draft.clone().get(path).map_err(|wrong| PyKeyError::new_err(wrong.to_string()))?;
         if !path.contains('*') && found.len() == 1 {
@@ -95,18 +95,18 @@ impl Scenario {
         Ok(LiveRun::of(model, trouble))
     }
 
-    /// Changes a value, `scenario["path.speed"] = "30 mph"`: a number in the scenario's units, a text with its unit, a list,
-    /// a dict; None takes it away. A star in the path stands for any name.
+    /// Changes a value, `scenario["path.speed"] = "30 mph"`: a number in the scenario's units, a text with its unit, a
+    /// list, a dict; None removes it. `*` in the path matches any name.
     fn __setitem__(&mut self, path: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         self.draft.set_value(path, &assigned(value)?).map_err(|wrong| refused(&wrong))
     }
 
-    /// Takes a value away.
+    /// Removes a value.
     fn __delitem__(&mut self, path: &str) -> PyResult<()> {
         self.draft.set_value(path, "null").map_err(|wrong| refused(&wrong))
     }
 
-    /// The same scenario, to be changed apart.
+    /// An independent copy of the scenario.
     fn copy(&self) -> Self {
         self.clone()
     }
@@ -119,13 +119,13 @@ impl Scenario {
         self.clone()
     }
 
-    /// What there is to warn of, as `OccupantError.problems`; raises OccupantError if anything is wrong.
+    /// Warnings, in the form of `OccupantError.problems`; raises OccupantError for errors.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let (_, warnings) = self.model().map_err(|wrong| refused(&wrong))?;
         problems(py, &warnings)
     }
 
-    /// The scenario with all that is changed and expanded, in TOML.
+    /// The scenario with all changes and expansions, in TOML.
     fn to_toml(&self) -> PyResult<String> {
         let loaded = self.draft.clone().load(&|file| beside(&self.folder, file)).map_err(|wrong| refused(&wrong))?;
         loaded.scenario.to_toml().map_err(plain)
@@ -174,7 +174,7 @@ impl Scenario {
         })
     }
 
-    /// Simulates it. Other threads of Python go on meanwhile.
+    /// Runs the scenario. Other Python threads continue meanwhile.
     fn run(&self, py: Python<'_>) -> PyResult<Run> {
         if self.forces.is_empty() {
             return py.detach(|| Run::of(self.model().map_err(|wrong| refused(&wrong))?.0));
@@ -200,7 +200,7 @@ impl Scenario {
         Scenario { draft, folder, forces: Vec::new() }
     }
 
-    /// The model with forces that Python brings, and of a vehicle that is told on the way if it begins with `start`.
+    /// The model with Python forces; if it begins with `start`, the vehicle's motion is given during the run.
     fn own_model(&self, py: Python<'_>, start: Option<VehicleState>) -> PyResult<(Model, Trouble)> {
         let loaded = self.draft.clone().load(&|file| beside(&self.folder, file)).map_err(|wrong| refused(&wrong))?;
         let (mut setup, _) = loaded.build().map_err(|wrong| refused(&wrong))?;
@@ -227,7 +227,7 @@ impl Scenario {
     }
 }
 
-/// The values of a row, one for each path.
+/// Values of a row, one per path.
 fn cells<'py>(row: &Bound<'py, PyAny>, paths: &[String]) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let cells = row.try_iter()?.collect::<PyResult<Vec<_>>>()?;
     if cells.len() != paths.len() {
@@ -236,7 +236,7 @@ fn cells<'py>(row: &Bound<'py, PyAny>, paths: &[String]) -> PyResult<Vec<Bound<'
     Ok(cells)
 }
 
-/// A value as Python's.
+/// A value as a Python object.
 fn written<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     Ok(match value {
         Value::Null => py.None().into_bound(py),
@@ -258,7 +258,7 @@ fn written<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     })
 }
 
-/// The format that a file's ending says, if it says one.
+/// The format for a file's extension, if any.
 pub(crate) fn format_of(path: &Path) -> Option<Format> {
     match path.extension()?.to_str()? {
         "toml" => Some(Format::Toml),
@@ -267,7 +267,7 @@ pub(crate) fn format_of(path: &Path) -> Option<Format> {
     }
 }
 
-/// A file that stands beside a scenario.
+/// A file in the folder of a scenario.
 pub(crate) fn beside(folder: &Path, file: &str) -> Result<Vec<u8>, String> {
     std::fs::read(folder.join(file)).map_err(|error| error.to_string())
 }

@@ -14,7 +14,7 @@ use crate::batch::Batch;
 use crate::scenario::{Scenario, beside, format_of};
 use crate::trouble::refused;
 
-/// A study: a scenario in which values are varied, from a file as `occupant sweep` takes it.
+/// A study, from a file as for `occupant sweep`: a scenario with varied values.
 #[pyclass(module = "occupant", frozen)]
 pub(crate) struct Study {
     study: occupant_study::Study,
@@ -23,7 +23,7 @@ pub(crate) struct Study {
 
 #[pymethods]
 impl Study {
-    /// `path`: the study's file; `changes`: values of its base scenario by their paths.
+    /// `path`: the study's file; `changes`: values of its base scenario by path.
     #[new]
     #[pyo3(signature = (path, changes=None))]
     fn new(path: PathBuf, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {

@@ -15,12 +15,12 @@ create_exception!(
      `found`, `expected`, `source`, `line` and `column`."
 );
 
-/// A problem of one line.
+/// A one-line problem.
 pub(crate) fn plain(message: impl std::fmt::Display) -> PyErr {
     OccupantError::new_err(message.to_string())
 }
 
-/// All that is wrong, with its places.
+/// All problems, with their positions.
 pub(crate) fn refused(diagnostics: &Diagnostics) -> PyErr {
     let error = OccupantError::new_err(diagnostics.to_string());
     Python::attach(|py| {

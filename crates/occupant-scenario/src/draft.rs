@@ -47,7 +47,7 @@ impl Draft {
         Document::read(text, format, name).map(Draft::of)
     }
 
-    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
+    /// Reads bytes of UTF-8 text; [`Format::of_text`] detects the format unless it is given.
     ///
     /// # Errors
     /// The position of the first byte that is not UTF-8; otherwise as [`Draft::read`].
@@ -137,7 +137,7 @@ impl Draft {
         FILES.iter().flat_map(|path| self.get(path).unwrap_or_default()).filter_map(named).collect()
     }
 
-    /// How what stands at a path of a car or of who sits in it is usually spread; none where none is known.
+    /// Built-in distribution for a path of a car or its occupants; none if there is none.
     pub fn usual(&self, path: &str) -> Option<Usual> {
         car::usual(&self.document.sources, &self.document.root, path)
     }

@@ -40,7 +40,7 @@ pub fn rival_path(path: &str) -> Option<String> {
     Some(format!("{above}.{}", rival(key)?))
 }
 
-/// A text that comes with the program or was made by it, read and checked.
+/// A built-in or generated text, parsed and checked.
 pub(super) fn written(title: &str, text: &str) -> Option<Document> {
     let mut document = Document::read(text, Format::Toml, title).ok()?;
     // it lacks what a whole scenario has; its quantities are read
@@ -139,7 +139,7 @@ fn entry_at<'a>(node: &'a Node, path: &[&str]) -> Option<&'a Entry> {
 
 /// Name of the library in messages.
 const LIBRARY: &str = "library";
-/// Where pulses stand in the library.
+/// Path of pulses in the library.
 const PULSES: [&str; 3] = ["vehicles", "*", "path"];
 
 /// Name of a joint, and whether it is a hinge.

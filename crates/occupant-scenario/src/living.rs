@@ -14,7 +14,7 @@ const VOLUNTEER: &str = "volunteer";
 /// The default trigger of the muscles.
 const FEELS: &str = "volunteer_feels";
 
-/// Acceleration along the floor from which a volunteer reacts; our estimate, above that of ordinary driving.
+/// Vehicle acceleration in the floor plane from which a volunteer reacts; our estimate, above that of ordinary driving.
 const FELT: &str = "[triggers]\nvolunteer_feels = { kind = \"vehicle_acceleration\", threshold = \"0.5 g\" }\n";
 
 /// Gains of a fully active muscle.

@@ -48,7 +48,7 @@ pub(super) fn base(section: &Node, key: &str) -> Option<(String, Arc<Document>)>
     }
 }
 
-/// The text of the deformable parts that a body section selects, and its name.
+/// Text of the deformable parts chosen by a body section, and its name.
 fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String)> {
     let flesh = (own.pelvis == Some(PelvisChoice::Flesh)).then(|| chest::flesh(body));
     let chest = chest_of(own, made, body);
@@ -66,7 +66,7 @@ fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String
     Some(([rides, belly, chest.join("\n"), plates, its_plate].join("\n"), name.join(" and ")))
 }
 
-/// The text of the chest that a body section selects; none for a child, for which there are no tests.
+/// Text of the chest chosen by a body section; none for a child, for which there are no tests.
 fn chest_of(own: &BodySection, made: &Made, body: &Body) -> Option<Vec<String>> {
     let choice = own.chest.filter(|choice| *choice != ChestChoice::Rigid)?;
     let is_old = made.preset.as_deref() == Some(OLD);
@@ -76,10 +76,10 @@ fn chest_of(own: &BodySection, made: &Made, body: &Body) -> Option<Vec<String>> 
     Some(chest::words(choice, body, [person, people::REFERENCE_PERSON], &reference))
 }
 
-/// A text of the program, once it has been read.
+/// A built-in text, once parsed.
 type Read = OnceLock<Option<Arc<Document>>>;
 
-/// The inputs of a body.
+/// Key of a generated body.
 #[derive(Clone, PartialEq)]
 struct Made {
     preset: Option<String>,
@@ -126,7 +126,7 @@ fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)>
     Some((title, document))
 }
 
-/// The preset whose body is in a file.
+/// The preset whose body is stored in a file.
 pub(super) const OLD: &str = "male50-1970";
 
 /// Presets of joints whose necks have two joints.

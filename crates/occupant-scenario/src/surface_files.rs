@@ -9,13 +9,13 @@ use super::expand::laid_over;
 use super::sections::{Basis, MaterialSection, Scenario, SurfaceFile, surface_schema};
 use placed_text::{Diagnostics, Document, Entry, Node, Problem, Value, with_key};
 
-/// Gives the bytes of a file, or says why not.
+/// Returns the bytes of a file, or the reason of the failure.
 type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
-/// Keys that say how a force goes back.
+/// Keys that define unloading.
 const BACK: [&str; 5] = ["returned", "returned_each", "unload_slope", "atb", "mu1"];
 
-/// All that is wrong with the words of a surface file; `name` is what messages call it.
+/// Problems of a surface file; `name` is its name in messages.
 ///
 /// # Errors
 /// Bytes that are no text, wrong syntax, wrong words.
@@ -64,7 +64,7 @@ fn read(bytes: &[u8], name: &str) -> Result<(Document, SurfaceFile), Diagnostics
 
 const NO_KEY: &str = "no such key, so that the scenario gives it; or \"made_up\" in `measured`";
 
-/// Reads the surface files that materials of an explicit scenario name, and lays them under these materials.
+/// Reads the surface files referred to by materials of an explicit scenario, and merges them below these materials.
 ///
 /// # Errors
 /// Files that cannot be read, what is wrong in them, and what was not measured and the scenario does not say.
@@ -116,7 +116,7 @@ fn differs(file: &str, error: &str) -> Diagnostics {
     placed_text::refuse(file, format!("the material cannot be read: {error}"), "a material")
 }
 
-/// Reports what was not measured and is not said by the scenario either.
+/// Reports values that were not measured and are missing in the scenario.
 fn not_said(
     document: &Document,
     (path, file): (&str, &str),
@@ -143,7 +143,7 @@ fn not_said(
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
-/// A surface in the words of `provenance`.
+/// Text of a surface's provenance.
 fn told(surface: &SurfaceFile, file: &str) -> String {
     let word = |basis: Basis| match basis {
         Basis::Measured => "measured",
@@ -157,7 +157,7 @@ fn told(surface: &SurfaceFile, file: &str) -> String {
     format!("{file}: {}; {}; {parts}", surface.title, surface.provenance.source)
 }
 
-/// Tells the source of a material where the scenario tells none.
+/// Adds the source of a material if the scenario gives none.
 fn tell(document: &mut Document, explicit: &mut Scenario, path: &str, words: &str) {
     explicit.provenance.entry(path.to_owned()).or_insert_with(|| words.to_owned());
     let span = document.sources.start_of(document.main);

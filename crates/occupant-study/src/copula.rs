@@ -8,13 +8,13 @@ use std::f64::consts::PI;
 use super::normal;
 use occupant_units::trig::sin_cos;
 
-/// Probabilities stay this far from 0 and 1, as those of the random numbers do.
+/// Least distance of probabilities from 0 and 1, as for the random numbers.
 const LEAST: f64 = f64::EPSILON / 2.0;
 
-/// Cholesky's factor of the correlation matrix of all parameters.
+/// Cholesky factor of the correlation matrix of all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Copula {
-    /// Rows of L up to the diagonal; a row of one number for a parameter that depends on none before it.
+    /// Rows of L up to the diagonal; a single number for a parameter that depends on no earlier one.
     rows: Vec<Vec<f64>>,
 }
 

@@ -5,20 +5,20 @@ use super::law::{Law, Value};
 use super::parameter::{Parameter, put};
 use occupant_scenario::{Diagnostics, Draft};
 
-/// The part of a distribution without an end that lies beyond a corner.
+/// Tail probability at which an unbounded distribution has its corner.
 const TAIL: f64 = 1e-3;
-/// Of so many parameters at most each combination is a corner.
+/// Largest number of parameters for which every combination is a corner.
 const MOST_COMBINED: usize = 6;
 
 /// A corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corner {
-    /// The parameters (indices) that are not as the base scenario has them, with their values.
+    /// Indices and values of the parameters that differ from the base scenario.
     pub values: Vec<(usize, Value)>,
 }
 
 impl Study {
-    /// The corners: each parameter alone at its ends, then all of them together, of a few in every combination.
+    /// The corners: each parameter alone at its bounds, then all together; for a few parameters every combination.
     pub fn corners(&self) -> Vec<Corner> {
         let ends: Vec<(usize, [Value; 2])> =
             self.parameters.iter().enumerate().filter_map(|(i, of)| Some((i, ends(of)?))).collect();
@@ -50,7 +50,7 @@ impl Study {
     }
 }
 
-/// Least and largest value of a parameter; none of one that a table gives, which has no ends of its own.
+/// Least and largest value of a parameter; none for a parameter given by a table.
 fn ends(of: &Parameter) -> Option<[Value; 2]> {
     match &of.law {
         Law::Table => None,

@@ -11,26 +11,25 @@ use super::random::{Purpose, unit};
 use super::saltelli::{self, Block};
 use occupant_scenario::{POSITIVE, Ratio};
 
-/// How the samples are chosen.
+/// Design of a study: the choice of samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Design {
     /// The scenario itself: one sample.
     #[serde(skip)]
     Single,
-    /// Every value of every parameter with every value of all others. The last parameter changes fastest, as in nested
-    /// loops in the order written.
+    /// All combinations of all values. The last parameter changes fastest, as in nested loops in the order written.
     FullFactorial,
-    /// Each parameter's range is cut into as many parts of equal probability as there are samples; each part is used
-    /// once.
+    /// Latin hypercube: each parameter's range is cut into as many parts of equal probability as there are samples;
+    /// each part is used once.
     LatinHypercube {
-        /// How many samples.
+        /// Number of samples.
         #[schemars(extend("minimum" = 1))]
         samples: u64,
     },
     /// Sobol's low-discrepancy sequence from its first point, scrambled.
     Sobol {
-        /// How many samples, best a power of 2.
+        /// Number of samples, preferably a power of 2.
         #[schemars(extend("minimum" = 1))]
         samples: u64,
         /// Whether the sequence is scrambled by the seed; true if absent.
@@ -39,13 +38,13 @@ pub enum Design {
     },
     /// Independent random samples.
     MonteCarlo {
-        /// How many samples.
+        /// Number of samples.
         #[schemars(extend("minimum" = 1))]
         samples: u64,
     },
     /// The base scenario, then each parameter alone at each of its values, or at its low and its high one.
     OneAtATime {
-        /// The part of a normal distribution that lies below its low and above its high value; 0.05 if absent.
+        /// Tail probability of a normal distribution below its low and above its high value; 0.05 if absent.
         #[serde(default = "usual_tail")]
         tail: Ratio<POSITIVE>,
     },
@@ -54,29 +53,29 @@ pub enum Design {
         /// CSV file beside the study; its first line names parameters or paths with their units, such as
         /// `joints.neck.damping[in lbf s/rad],belts.lap.slack[mm]`.
         file: String,
-        /// What the file says, one value for each parameter.
+        /// Values of the file, one row per sample, one value per parameter.
         #[serde(skip)]
         rows: Vec<Vec<Value>>,
     },
     /// Blocks for Sobol's sensitivity indices: A, A with one column of B for each parameter, B.
     Saltelli {
-        /// How many points A and B have, best a power of 2. There are (k + 2) runs for each with k parameters, or 2k + 2.
+        /// Number of points of A and B, preferably a power of 2. With k parameters, each takes k + 2 runs, or 2k + 2.
         #[schemars(extend("minimum" = 1))]
         samples: u64,
-        /// Whether B with one column of A is run too, for interactions of two; false if absent.
+        /// Whether B with one column of A is also run, for second-order interactions; false if absent.
         #[serde(default)]
         second_order: bool,
     },
     /// Trajectories for Morris's screening, along which one parameter changes at a time.
     Morris {
-        /// How many trajectories, of k + 1 runs each with k parameters.
+        /// Number of trajectories, of k + 1 runs each with k parameters.
         #[schemars(extend("minimum" = 1))]
         trajectories: u64,
-        /// Into how many levels each range is cut, an even number; 4 if absent.
+        /// Number of levels of each range, even; 4 if absent.
         #[schemars(extend("minimum" = 2))]
         #[serde(default = "usual_levels")]
         levels: u64,
-        /// The part of a normal distribution that lies below its low and above its high level; 0.05 if absent.
+        /// Tail probability of a normal distribution below its low and above its high level; 0.05 if absent.
         #[serde(default = "usual_tail")]
         tail: Ratio<POSITIVE>,
     },
@@ -94,10 +93,10 @@ fn usual_levels() -> u64 {
     4
 }
 
-/// What a sample is in its design.
+/// Role of a sample in its design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
-    /// One of many alike.
+    /// An ordinary sample.
     Sample,
     /// The base scenario of a one-at-a-time design.
     Nominal,
@@ -110,7 +109,7 @@ pub enum Role {
     Saltelli {
         /// Index of the point in A and B.
         point: u64,
-        /// Which block.
+        /// The block.
         block: Block,
     },
     /// In a Morris design.
@@ -119,28 +118,28 @@ pub enum Role {
         trajectory: u64,
         /// Steps made so far, 0 at its start.
         step: usize,
-        /// The parameter that the last step changed, and by which part of its range, with its sign.
+        /// The parameter changed by the last step, and the signed change as a fraction of its range.
         changed: Option<(usize, f64)>,
     },
 }
 
-/// Where a parameter stands in its law.
+/// Position of a parameter's value in its law.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Coordinate {
-    /// As the base scenario has it.
+    /// The base scenario's value.
     Nominal,
-    /// One of its levels.
+    /// Number of one of its levels.
     Level(u64),
     /// A probability.
     Quantile(f64),
-    /// A probability, with distributions without ends cut off at a tail.
+    /// A probability, and the tail at which unbounded distributions are cut off.
     Bounded(f64, f64),
-    /// A value of the design's own.
+    /// A value given by the design.
     Given(Value),
 }
 
 impl Design {
-    /// How many samples, for parameters with these numbers of levels; none if more than 2⁵².
+    /// Number of samples, for parameters with these numbers of levels; none if more than 2⁵².
     pub(super) fn len(&self, levels: &[Option<u64>]) -> Option<u64> {
         let k = levels.len() as u64;
         let len = match self {
@@ -162,7 +161,7 @@ impl Design {
         matches!(self, Design::LatinHypercube { .. } | Design::Sobol { .. } | Design::MonteCarlo { .. })
     }
 
-    /// What a sample is in its design.
+    /// Role of a sample in its design.
     pub(super) fn role(&self, index: u64, levels: &[Option<u64>], seed: u64) -> Role {
         let k = levels.len();
         match self {
@@ -182,7 +181,7 @@ impl Design {
         }
     }
 
-    /// The coordinates of a sample, one for each parameter.
+    /// Coordinates of a sample, one per parameter.
     pub(super) fn coordinates(&self, index: u64, of: &Study) -> Vec<Coordinate> {
         let k = of.parameters.len();
         let dimensions = 0..k as u32;
@@ -220,7 +219,7 @@ impl Design {
     }
 }
 
-/// Sets the coordinates of crossed parameters to combination number `index` of their values.
+/// Sets the coordinates of crossed parameters to the combination of their values with this index.
 pub(super) fn cross(index: u64, levels: &[Option<u64>], crossed: &[bool], coordinates: &mut [Coordinate]) {
     let own = levels.iter().zip(crossed).map(|(levels, crossed)| levels.filter(|_| *crossed).or(Some(1)));
     let levels = full_factorial(index, &own.collect::<Vec<_>>());
@@ -228,7 +227,7 @@ pub(super) fn cross(index: u64, levels: &[Option<u64>], crossed: &[bool], coordi
     places.filter(|(_, crossed)| **crossed).for_each(|((coordinate, level), _)| *coordinate = level);
 }
 
-/// The digits of the index in a number system whose digits have as many values as the parameters, last digit first.
+/// Digits of the index in the mixed radix of the parameters' numbers of values, last digit fastest.
 fn full_factorial(index: u64, levels: &[Option<u64>]) -> Vec<Coordinate> {
     let mut rest = index;
     let mut digits: Vec<Coordinate> = levels
@@ -245,7 +244,7 @@ fn full_factorial(index: u64, levels: &[Option<u64>]) -> Vec<Coordinate> {
     digits
 }
 
-/// u = (π(i) + jitter)/n: the stratum by a permutation of its own for each dimension.
+/// u = (π(i) + jitter)/n: the stratum by a separate permutation for each dimension.
 fn stratified(index: u64, n: u64, dimension: u32, seed: u64) -> f64 {
     let stratum = permute(index, n, seed, dimension);
     let jitter = unit(seed, Purpose::Jitter, index, dimension);
@@ -254,7 +253,7 @@ fn stratified(index: u64, n: u64, dimension: u32, seed: u64) -> f64 {
     u.clamp(f64::EPSILON / 2.0, 1.0 - f64::EPSILON / 2.0)
 }
 
-/// The parameter that sample `index` varies, and to which of its values; none for the base scenario.
+/// The parameter varied by sample `index`, and the number of its value; none for the base scenario.
 fn one_at_a_time(index: u64, levels: &[Option<u64>]) -> Option<(usize, u64)> {
     let mut rest = index.checked_sub(1)?;
     for (parameter, levels) in levels.iter().enumerate() {

@@ -26,22 +26,22 @@ use occupant_scenario::ending::Ending;
 pub use occupant_scenario::ending::Unrecorded;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
-/// Stack of a thread, bytes: eight runs side by side of many bodies are large to make.
+/// Stack size of a thread, bytes: eight models of many bodies side by side are large to build.
 const STACK: usize = 16 << 20;
 
-/// More threads than this, and than four for each core, only wait for each other.
+/// Largest number of threads, or four per core if that is more; further threads would only wait.
 pub const MOST_THREADS: usize = 64;
 
-/// Where runs come from and what they leave. One is shared by all threads.
+/// Source of runs and sink of their results, shared by all threads.
 pub trait Source: Sync {
-    /// Takes the results of one run.
+    /// Receives the results of one run.
     type Recorder: Recorder;
     /// What is kept of a run.
     type Row: Send;
-    /// What ends all runs, such as a full disk.
+    /// An error that ends all runs, such as a full disk.
     type Error: From<Unrecorded> + Send;
 
-    /// The model of a run, and where its results go.
+    /// The model of a run and its recorder.
     ///
     /// # Errors
     /// A refused scenario costs this run; anything else ends all.
@@ -62,12 +62,12 @@ pub trait Source: Sync {
     }
 }
 
-/// Why a run did not begin.
+/// Reason why a run did not start.
 #[derive(Debug)]
 pub enum NotBegun<E> {
-    /// Its scenario is wrong.
+    /// The scenario has errors.
     Refused(Diagnostics),
-    /// What ends all runs.
+    /// An error that ends all runs.
     Error(E),
 }
 
@@ -77,31 +77,31 @@ impl<E> From<Diagnostics> for NotBegun<E> {
     }
 }
 
-/// A run that has ended, however.
+/// A run that has ended, completed or not.
 #[derive(Debug)]
 pub struct Finished<R> {
-    /// Its number.
+    /// Its index.
     pub index: u64,
     /// How it ended.
     pub ending: Ending,
-    /// Time since it was begun, s.
+    /// Wall time since its start, s.
     pub wall_time_s: f64,
-    /// What was run; none of a scenario that is refused, or on which the program broke off.
+    /// The model and its results; none if the scenario was refused or the program broke off.
     pub ran: Option<Ran<R>>,
 }
 
 /// A run that was computed.
 #[derive(Debug)]
 pub struct Ran<R> {
-    /// What was run.
+    /// The model.
     pub model: Model,
-    /// Where its results went.
+    /// Its recorder.
     pub recorder: R,
-    /// What computed it.
+    /// The kernel used.
     pub kernel: Kernel,
 }
 
-/// The threads that compute runs, and how each does it.
+/// Threads that compute runs, and their kernel.
 #[derive(Debug)]
 pub struct Engine {
     pool: ThreadPool,
@@ -109,7 +109,8 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// So many threads: at most [`MOST_THREADS`], or four for each core where that is more, and fewer where the system gives no more.
+    /// An engine with this many threads: at most [`MOST_THREADS`], or four per core where that is more, and fewer if
+    /// the system grants no more.
     ///
     /// # Errors
     /// The system gives not even one.
@@ -126,7 +127,7 @@ impl Engine {
         }
     }
 
-    /// How many threads there are.
+    /// Number of threads.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
     }
@@ -167,7 +168,7 @@ impl Engine {
     }
 }
 
-/// What ends runs before their time: the caller, or an error.
+/// Request to end runs early: from the caller, or by an error.
 #[derive(Clone, Copy)]
 struct Stop<'a> {
     asked: &'a AtomicBool,
@@ -190,7 +191,7 @@ impl Recorder for Stop<'_> {
     }
 }
 
-/// Number of a run, and when it was begun.
+/// Index of a run, and when it started.
 type Tag = (u64, Instant);
 type Ended<'a, R> = batch::Ended<Tag, (Stop<'a>, R)>;
 
@@ -201,7 +202,7 @@ struct Worker<'a, S: Source, I> {
     stop: Stop<'a>,
     kernel: Kernel,
     rows: SyncSender<Result<S::Row, S::Error>>,
-    /// The runs that were begun and have not ended.
+    /// Indices of the runs in progress.
     under_way: RefCell<Vec<u64>>,
 }
 
@@ -229,7 +230,7 @@ impl<'a, S: Source, I: Iterator<Item = u64>> Worker<'a, S, I> {
         }
     }
 
-    /// Runs the indices that `next` gives, as many side by side as the kernel can.
+    /// Runs the indices given by `next`, as many side by side as the kernel can.
     fn side_by_side(&self, kernel: Kernel, mut next: impl FnMut() -> Option<u64>) {
         let jobs = from_fn(|| {
             loop {

@@ -12,23 +12,23 @@ use occupant_scenario::{Draft, Place, rival_path};
 use placed_text::{Problem, Value as Written};
 use serde::Serialize;
 
-/// How far the standard changes may go.
+/// Tolerances of the standard perturbations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tolerances {
     /// Of each angle of the posture, or of the initial state, rad.
     pub posture_rad: f64,
     /// Of heels and lateral seat place, or of the position in the initial state, m.
     pub place_m: f64,
-    /// Of the strength of the pulse, as a part of it.
+    /// Of the strength of the pulse, relative.
     pub path: f64,
-    /// Of the stiffness of each material and each belt, as a part of it.
+    /// Of the stiffness of each material and each belt, relative.
     pub stiffness: f64,
-    /// Of mass and inertia of each segment of the body, as a part of them.
+    /// Of mass and inertia of each segment of the body, relative.
     pub segments: f64,
 }
 
 impl Default for Tolerances {
-    /// As well as a test can be set up: 1°, 5 mm, 1 %, 2 %, and always the same body.
+    /// Repeatability of a test: 1°, 5 mm, 1 %, 2 %; the body is unchanged.
     fn default() -> Self {
         Tolerances {
             posture_rad: std::f64::consts::PI / 180.0,
@@ -40,35 +40,35 @@ impl Default for Tolerances {
     }
 }
 
-/// The same sample many times with small changes.
+/// Repetitions of each sample with small changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
-    /// How many runs for each sample, the unchanged one included.
+    /// Runs per sample, including the unchanged one.
     pub members: u64,
-    /// What changes.
+    /// The perturbations.
     pub perturbations: Vec<Perturbation>,
 }
 
-/// A small change of one place, or of several together.
+/// A small random change of one value, or of several together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perturbation {
-    /// How far it may go.
+    /// Largest change.
     pub change: Change,
-    /// Where.
+    /// Values that it changes.
     pub targets: Vec<Target>,
 }
 
-/// How far a change may go, to both sides.
+/// Largest change, to both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// By so much, SI units.
+    /// Absolute, SI units.
     Offset(f64),
-    /// By such a part of it.
+    /// Relative.
     Factor(f64),
 }
 
 impl Ensemble {
-    /// Changes what a sample puts into the scenario, for one of its members.
+    /// Perturbs the assignments of a sample for one of its members.
     pub(super) fn perturb(&self, member: u64, seed: u64, list: &mut Vec<Assignment>) {
         if member == 0 {
             return;
@@ -92,19 +92,19 @@ impl Ensemble {
     }
 }
 
-/// One change for each of these paths that there is, each path on its own.
+/// One perturbation per existing path, independent of each other.
 fn each(base: &Draft, paths: &[String], change: Change) -> Vec<Perturbation> {
     let found = paths.iter().filter_map(|path| targets(base, path).ok());
     found.flatten().map(|target| Perturbation { change, targets: vec![target] }).collect()
 }
 
-/// The numbers that a path leads to.
+/// The numbers at a path.
 pub(super) fn targets(base: &Draft, path: &str) -> Result<Vec<Target>, Problem> {
     let places = base.places(path)?;
     Ok(places.iter().filter(|p| p.si.is_some()).map(Target::of).collect())
 }
 
-/// Changes of each angle of the posture, or of the initial state.
+/// Perturbations of each angle of the posture, or of the initial state.
 pub(super) fn posture(base: &Draft, most_rad: f64) -> Vec<Perturbation> {
     let angles = ["middle_torso", "upper_torso", "head", "lower_torso", "upper_arms", "elbows"];
     let written = people(base).into_iter().flat_map(|person| {
@@ -118,14 +118,14 @@ pub(super) fn posture(base: &Draft, most_rad: f64) -> Vec<Perturbation> {
     each(base, &paths, Change::Offset(most_rad))
 }
 
-/// What stands before the keys of each occupant: nothing, or `occupants.NAME.`.
+/// Path prefix of each occupant: empty, or `occupants.NAME.`.
 fn people(base: &Draft) -> Vec<String> {
     let named = base.clone().get("occupants.*").unwrap_or_default();
     let own = named.into_iter().map(|(path, _)| format!("{path}."));
     std::iter::once(String::new()).chain(own).collect()
 }
 
-/// Changes of the place of the occupant.
+/// Perturbations of the occupant's position.
 pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
     let own = ["posture.heels[0]", "posture.heels[1]", "stance.at[0]", "stance.at[1]"];
     let own = people(base).into_iter().flat_map(|person| own.map(|path| format!("{person}{path}")));
@@ -136,7 +136,8 @@ pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
     [each(base, &written, Change::Offset(most_m)), each(base, &exact, Change::Offset(most_m / length_m))].concat()
 }
 
-/// A change of the strength of each vehicle's motion: of its pulse, whether the base scenario or a parameter says it, or of its table or record.
+/// Perturbation of the strength of each vehicle's motion: its pulse, given by the base scenario or by a parameter, or
+/// its table or record.
 pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Perturbation> {
     let paths = ["path.peak", "path.delta_v"];
     let said = paths.iter().filter_map(|path| targets(base, path).ok());
@@ -154,7 +155,7 @@ pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Per
     pulse.into_iter().chain(recorded).chain(others).collect()
 }
 
-/// The strength of each path that is a table or a record, which is 1 where the scenario does not say it.
+/// The strength of each path that is a table or a record; 1 if the scenario does not give it.
 fn recorded(base: &Draft) -> Vec<Target> {
     let kinds = ["path.kind", "vehicles.*.path.kind"].iter().filter_map(|path| base.places(path).ok()).flatten();
     let is_recorded = |place: &Place| matches!(&place.value, Some(Written::String(kind)) if ["table", "sensors"].contains(&kind.as_str()));
@@ -166,7 +167,7 @@ fn recorded(base: &Draft) -> Vec<Target> {
     kinds.filter(is_recorded).filter_map(strength).collect()
 }
 
-/// A change of each material and each belt, both straight lines of one together.
+/// Perturbation of each material and each belt, both slopes of one together.
 pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
     let firsts = ["materials.*.k1", "belts.*.k1", "occupants.*.belts.*.k1"]
         .iter()
@@ -184,13 +185,13 @@ pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
         .collect()
 }
 
-/// A change of mass and inertia of each segment of the body, left and right together.
+/// Perturbation of mass and inertia of each segment of the body, left and right together.
 pub(super) fn segments(base: &Draft, most: f64) -> Vec<Perturbation> {
     let of = |(_, targets)| Perturbation { change: Change::Factor(most), targets };
     super::segments::segments(base).into_iter().map(of).collect()
 }
 
-/// Names of the changes, as the command line and `[ensemble]` have them, that are asked for and for which the scenario has no place.
+/// Requested perturbations, named as in the command line and `[ensemble]`, that do not apply to the scenario.
 pub fn without_place(base: &Draft, most: &Tolerances) -> Vec<&'static str> {
     let asked = [
         ("posture", most.posture_rad, posture(base, most.posture_rad)),
@@ -203,7 +204,7 @@ pub fn without_place(base: &Draft, most: &Tolerances) -> Vec<&'static str> {
     asked.iter().filter(is_lost).map(|(name, ..)| *name).collect()
 }
 
-/// All standard changes that the scenario has a place for.
+/// All standard perturbations that apply to the scenario.
 pub(super) fn standard(base: &Draft, parameters: &[Parameter], most: &Tolerances) -> Vec<Perturbation> {
     [
         posture(base, most.posture_rad),

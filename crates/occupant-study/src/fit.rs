@@ -5,33 +5,33 @@ use super::fit_section::{FilterChoice, FitChannel, FitTest, Misfit};
 use super::law::Value;
 use super::parameter::Assignment;
 
-/// A fit as a study says it.
+/// A fit, as defined by a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// What is made small.
+    /// Objective to minimise.
     pub misfit: Misfit,
     /// Filter of channels that have none of their own.
     pub filter: FilterChoice,
-    /// The channels that count; empty for all that the tests have.
+    /// Channels compared; empty for all that the tests have.
     pub channels: Vec<FitChannel>,
     /// The tests; empty if the study leaves them to the command line.
     pub tests: Vec<FitTest>,
-    /// First and last time that count, s, where a test says nothing else.
+    /// First and last time compared, s, unless a test has its own.
     pub window_s: [Option<f64>; 2],
-    /// Names the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// Evaluations of the global search.
     pub budget: u64,
     /// Candidates of the first generations.
     pub population: usize,
-    /// A descent has arrived when scores differ by less.
+    /// Scores that differ by less count as converged.
     pub tolerance: f64,
-    /// Scores worse by no more than this are as good.
+    /// Parameter sets whose score is worse by no more than this count as equally good.
     pub near: Option<f64>,
 }
 
 impl Study {
-    /// What the values of all parameters, SI units and in their order, put into the base scenario.
+    /// Assignments of parameter values (SI units, in the study's order) to the base scenario.
     pub fn assignments_of(&self, values: &[f64]) -> Vec<Assignment> {
         let mut list = Vec::new();
         for (parameter, value) in self.parameters.iter().zip(values) {

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-/// Of which runs the whole motion is kept.
+/// Runs whose full result file is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum KeepSection {
@@ -34,19 +34,19 @@ impl JsonSchema for KeepSection {
     }
 }
 
-/// Of which runs the whole motion is kept.
+/// Runs whose full result file is kept.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub enum Keep {
-    /// Of all.
+    /// All runs.
     All,
-    /// Of none.
+    /// None.
     #[default]
     None,
-    /// Of these.
+    /// Runs with these indices.
     Indices(Vec<u64>),
-    /// Of those with the largest values of a measure.
+    /// Runs with the largest values of a measure.
     Worst {
-        /// How many.
+        /// Number of runs.
         count: u64,
         /// Name of the measure, such as `hic15`.
         measure: String,
@@ -54,7 +54,7 @@ pub enum Keep {
 }
 
 impl Keep {
-    /// What the words say.
+    /// The choice that a section describes.
     ///
     /// # Errors
     /// What was found that says nothing.
@@ -71,14 +71,14 @@ impl Keep {
         }
     }
 
-    /// Of the runs with these indices.
+    /// Runs with these indices.
     pub fn of(mut indices: Vec<u64>) -> Keep {
         indices.sort_unstable();
         indices.dedup();
         Keep::Indices(indices)
     }
 
-    /// What words such as `all` or `worst 5 by hic15` say; none if nothing.
+    /// The choice described by words such as `all` or `worst 5 by hic15`; none if they mean nothing.
     pub fn from_words(words: &str) -> Option<Keep> {
         let words: Vec<&str> = words.split_whitespace().collect();
         match words.as_slice() {

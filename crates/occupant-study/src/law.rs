@@ -15,87 +15,87 @@ pub enum Value {
     Text(String),
     /// True or false.
     Truth(bool),
-    /// What the base scenario says, where that is not one single value.
+    /// The base scenario's value, where it is not one single value.
     Base,
 }
 
-/// How likely each value is.
+/// A probability distribution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[schemars(rename = "DistributionSection")]
 pub enum Distribution<N> {
-    /// Every value between two equally likely.
+    /// Uniform between two values.
     Uniform {
         /// Least value.
         from: N,
         /// Largest value.
         to: N,
     },
-    /// Every ratio between two values equally likely.
+    /// Log-uniform between two values.
     LogUniform {
         /// Least value.
         from: N,
         /// Largest value.
         to: N,
     },
-    /// Gauss's bell.
+    /// Normal distribution.
     Normal {
         /// Mean.
         mean: N,
         /// Standard deviation.
         sd: N,
     },
-    /// Gauss's bell between two values.
+    /// Normal distribution, truncated to a range.
     TruncatedNormal {
-        /// Mean before it is cut.
+        /// Mean before truncation.
         mean: N,
-        /// Standard deviation before it is cut.
+        /// Standard deviation before truncation.
         sd: N,
         /// Least value.
         from: N,
         /// Largest value.
         to: N,
     },
-    /// Straight lines up to the likeliest value and down again.
+    /// Triangular distribution: its density is linear up to the mode and down again.
     Triangular {
         /// Least value.
         from: N,
-        /// Likeliest value.
+        /// Mode.
         mode: N,
         /// Largest value.
         to: N,
     },
 }
 
-/// How the values of one parameter are spread.
+/// Law of a parameter's values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Law {
-    /// Given values, each as likely.
+    /// A list of values, equally likely.
     List(Vec<Value>),
-    /// Evenly spaced values, both ends included, each as likely.
+    /// Evenly spaced values, both ends included, equally likely.
     Grid {
         /// First.
         from: f64,
         /// Last.
         to: f64,
-        /// How many, at least 2.
+        /// Number of values, at least 2.
         steps: u64,
-        /// Equal ratios instead of equal differences; both ends are then positive.
+        /// True: equal ratios, between positive ends; false: equal differences.
         log: bool,
     },
-    /// As likely as a distribution says.
+    /// A distribution.
     Distribution(Distribution<f64>),
-    /// The design's own table says.
+    /// Values in the design's table.
     Table,
 }
 
 impl Law {
-    /// Whether equal ratios of its values are as likely, not equal differences.
+    /// Whether the law is logarithmic: equal ratios instead of equal differences.
     pub fn goes_by_ratios(&self) -> bool {
         matches!(self, Law::Grid { log: true, .. } | Law::Distribution(Distribution::LogUniform { .. }))
     }
 
-    /// How many values there are, if they can be counted.
+    /// Number of values of a discrete law.
     pub fn levels(&self) -> Option<u64> {
         match self {
             Law::List(values) => Some(values.len() as u64),
@@ -104,7 +104,7 @@ impl Law {
         }
     }
 
-    /// A value by its number, from 0; the last for a number that is too great.
+    /// Value number `i`, from 0; the last if the number is too large.
     pub fn level(&self, i: u64) -> Value {
         match self {
             Law::List(values) => {
@@ -121,7 +121,7 @@ impl Law {
         }
     }
 
-    /// The value below which a part `p` of all values lies, 0 ≤ p ≤ 1. Levels share the probability equally.
+    /// Quantile at probability `p`, 0 ≤ p ≤ 1. Levels share the probability equally.
     pub fn quantile(&self, p: f64) -> Value {
         match self {
             Law::List(_) | Law::Grid { .. } => {
@@ -133,7 +133,7 @@ impl Law {
         }
     }
 
-    /// As [`Law::quantile`], where a distribution without ends is cut off at `tail` and 1 − `tail`.
+    /// As [`Law::quantile`], with unbounded distributions cut off at `tail` and 1 − `tail`.
     pub fn bounded_quantile(&self, p: f64, tail: f64) -> Value {
         match self {
             Law::Distribution(Distribution::Normal { .. }) => self.quantile(tail + (1.0 - 2.0 * tail) * p),
@@ -141,7 +141,7 @@ impl Law {
         }
     }
 
-    /// The ends between which a value can be looked for; none for a law that has no ends, or nothing between its values.
+    /// Bounds for a search; none for an unbounded or discrete law.
     pub fn bounds(&self) -> Option<Bounds> {
         let bounds = |from, to, log| Some(Bounds { from, to, log });
         match *self {
@@ -159,7 +159,7 @@ impl Law {
 }
 
 impl Distribution<f64> {
-    /// The number below which a part `p` of all lies.
+    /// Quantile at probability `p`.
     fn quantile(&self, p: f64) -> f64 {
         match *self {
             Distribution::Uniform { from, to } => between(from, to, p),
@@ -171,24 +171,24 @@ impl Distribution<f64> {
     }
 }
 
-/// The ends between which a parameter is looked for, SI units.
+/// Search bounds of a parameter, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Least value.
     pub from: f64,
     /// Largest value.
     pub to: f64,
-    /// Whether equal ratios are equal steps.
+    /// Whether the scale is logarithmic.
     pub log: bool,
 }
 
 impl Bounds {
-    /// The value at a part of the way, 0 to 1.
+    /// Value at a fraction of the range, 0 to 1.
     pub fn value(&self, u: f64) -> f64 {
         if self.log { log_between(self.from, self.to, u) } else { between(self.from, self.to, u) }
     }
 
-    /// The part of the way at which a value stands; beyond 0 or 1 for one outside.
+    /// Position of a value as a fraction of the range; below 0 or above 1 outside it.
     pub fn part(&self, value: f64) -> f64 {
         if self.log {
             (ln(value) - ln(self.from)) / (ln(self.to) - ln(self.from))
@@ -211,7 +211,8 @@ fn log_between(a: f64, b: f64, p: f64) -> f64 {
     }
 }
 
-/// μ + σ Φ⁻¹(Φ(a) + p(Φ(b) − Φ(a))), taken in the lower half, where Φ keeps its digits.
+/// Quantile of the truncated normal distribution, μ + σ Φ⁻¹(Φ(a) + p(Φ(b) − Φ(a))), computed in the lower half for
+/// accuracy.
 fn truncated(mean: f64, sd: f64, [from, to]: [f64; 2], p: f64) -> f64 {
     let (a, b) = ((from - mean) / sd, (to - mean) / sd);
     let z = if a > 0.0 {
@@ -222,7 +223,8 @@ fn truncated(mean: f64, sd: f64, [from, to]: [f64; 2], p: f64) -> f64 {
     held(mean + sd * z, from, to)
 }
 
-/// a + √(p(b − a)(c − a)) up to the mode c, b − √((1 − p)(b − a)(b − c)) beyond.
+/// Quantile of the triangular distribution: a + √(p(b − a)(c − a)) up to the mode c, b − √((1 − p)(b − a)(b − c))
+/// beyond.
 fn triangular(a: f64, c: f64, b: f64, p: f64) -> f64 {
     let x = if p * (b - a) < c - a {
         a + (p * (b - a) * (c - a)).sqrt()
@@ -232,7 +234,7 @@ fn triangular(a: f64, c: f64, b: f64, p: f64) -> f64 {
     held(x, a, b)
 }
 
-/// x between two ends; ends that are reversed or no numbers hold nothing.
+/// x clamped to a range; x itself if the bounds are reversed or NaN.
 fn held(x: f64, from: f64, to: f64) -> f64 {
     if from <= to { x.clamp(from, to) } else { x }
 }

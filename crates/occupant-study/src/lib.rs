@@ -98,31 +98,31 @@ use occupant_scenario::{Diagnostics, Draft};
 #[cfg(test)]
 mod tests;
 
-/// A study that fits its base scenario.
+/// A study checked against its base scenario.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// The base scenario, with what the study and the command line say of all runs.
+    /// The base scenario, with the values common to all runs.
     pub base: Draft,
-    /// The name of the base scenario as the study gives it.
+    /// Name of the base scenario in the study.
     pub base_name: String,
-    /// What the study and the command line have put into the base scenario, in order: paths and values as
-    /// [`Draft::set_value`] reads them.
+    /// Values set in the base scenario by the study and the command line, in order: paths, and texts as read by
+    /// [`Draft::set_value`].
     pub changes: Vec<(String, String)>,
-    /// What names the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// What is varied.
+    /// The varied parameters.
     pub parameters: Vec<Parameter>,
-    /// How the samples are chosen.
+    /// The choice of samples.
     pub design: Design,
     sobol: Sobol,
     copula: Option<Copula>,
-    /// The small changes of every sample, if there are any.
+    /// The small changes of every sample, if any.
     pub ensemble: Option<Ensemble>,
-    /// Of which runs the whole motion is kept.
+    /// Runs whose full result file is kept.
     pub keep: Keep,
     /// Whether the table of results is also written as CSV.
     pub csv: bool,
-    /// What the user should know, though the study can be run.
+    /// Warnings of a study that can be run.
     pub warnings: Diagnostics,
 }
 
@@ -131,15 +131,15 @@ pub struct Study {
 pub struct Setting {
     /// Index of the parameter in [`Study::parameters`].
     pub parameter: usize,
-    /// Its value, SI units and radians; of a parameter that the sample leaves alone, what the base scenario says.
+    /// Its value, SI units and radians; the base scenario's if the sample leaves it unchanged.
     pub value: Value,
-    /// Whether the sample says it, and not the base scenario.
+    /// Whether the sample sets it.
     pub given: bool,
 }
 
 impl Study {
-    /// An ensemble of one scenario: a study of one sample without parameters. What the scenario has no place for is not
-    /// changed.
+    /// An ensemble of one scenario: a study of one sample without parameters. Perturbations that do not apply to the
+    /// scenario are left out.
     pub fn of_ensemble(
         base: Draft,
         name: impl Into<String>,
@@ -164,28 +164,28 @@ impl Study {
         }
     }
 
-    /// How many runs there are: samples of the design times members of the ensemble.
+    /// Number of runs: samples of the design times members of the ensemble.
     pub fn len(&self) -> u64 {
         self.samples().saturating_mul(self.members())
     }
 
-    /// Whether there is no run at all.
+    /// Whether there are no runs.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// How many samples the design has.
+    /// Number of samples of the design.
     pub fn samples(&self) -> u64 {
         // bind has refused a design that cannot be counted
         self.design.len(&self.levels()).unwrap_or(0).saturating_mul(self.crossing())
     }
 
-    /// How many combinations of the values of crossed parameters each point of the design is run with.
+    /// Number of combinations of crossed values for each point of the design.
     pub fn crossing(&self) -> u64 {
         crossing(&self.parameters).unwrap_or(u64::MAX)
     }
 
-    /// How many runs each sample has: members of the ensemble, or 1.
+    /// Runs per sample: members of the ensemble, or 1.
     pub fn members(&self) -> u64 {
         self.ensemble.as_ref().map_or(1, |e| e.members.max(1))
     }
@@ -195,7 +195,7 @@ impl Study {
         (index / self.members(), index % self.members())
     }
 
-    /// The values of all parameters in a run, in the order of [`Study::parameters`]. Members of one sample share them.
+    /// Values of all parameters in a run, in the order of [`Study::parameters`]. Members of one sample share them.
     pub fn sample(&self, index: u64) -> Vec<Setting> {
         let (sample, _) = self.sample_and_member(index);
         let crossing = self.crossing();
@@ -217,7 +217,7 @@ impl Study {
             .collect()
     }
 
-    /// What a run puts into the base scenario, perturbations of its member included, each place once.
+    /// Assignments of a run to the base scenario, including the perturbations of its member, each path once.
     pub fn assignments(&self, index: u64) -> Vec<Assignment> {
         let mut list = Vec::new();
         for setting in self.sample(index).into_iter().filter(|s| s.given) {
@@ -230,7 +230,7 @@ impl Study {
         list
     }
 
-    /// Puts the values of a run into a copy of the base scenario.
+    /// Applies the assignments of a run to a copy of the base scenario.
     ///
     /// # Errors
     /// A path that does not exist in this draft; never in a clone of [`Study::base`].
@@ -248,7 +248,7 @@ impl Study {
         Ok(draft)
     }
 
-    /// What a run's sample is in its design.
+    /// Role of a run's sample in its design.
     pub fn role(&self, index: u64) -> Role {
         let (sample, _) = self.sample_and_member(index);
         self.design.role(sample / self.crossing(), &self.levels(), self.seed)

@@ -4,11 +4,11 @@ use super::fit_section::Misfit;
 use crash_measures::correlation::iso18571;
 use crash_measures::signal::SignalError;
 
-/// Half the width of the parabola that finds a peak between samples, s.
+/// Half width of the parabola fitted through a peak, s.
 const PEAK_S: f64 = 1e-3;
-/// Autocorrelation below which samples count as unrelated.
+/// Autocorrelation below which samples count as independent.
 const UNRELATED: f64 = 0.05;
-/// χ² of one degree of freedom that 95 % stay below.
+/// The 95 % quantile of χ² with one degree of freedom.
 const CHI_SQUARE_95: f64 = 3.841_458_820_694_124;
 
 impl Misfit {
@@ -26,7 +26,7 @@ impl Misfit {
         }
     }
 
-    /// Misfit of all channels from weights and misfits of each.
+    /// Combined misfit of all channels, from their weights and misfits.
     pub fn combined(self, parts: impl Iterator<Item = (f64, f64)>) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for (weight, part) in parts {
@@ -36,12 +36,12 @@ impl Misfit {
         if self == Misfit::Iso18571 { sum / weights } else { (sum / weights).sqrt() }
     }
 
-    /// What is smooth at its least value: the square of a root mean square.
+    /// Smooth cost with the same minimum: the square of a root mean square.
     pub fn cost(self, misfit: f64) -> f64 {
         if self == Misfit::Iso18571 { misfit } else { misfit * misfit }
     }
 
-    /// The misfit of a cost.
+    /// The misfit that belongs to a cost.
     pub fn of_cost(self, cost: f64) -> f64 {
         if self == Misfit::Iso18571 { cost } else { cost.max(0.0).sqrt() }
     }
@@ -85,7 +85,8 @@ fn peak_and_time(measured: &[f64], computed: &[f64], dt_s: f64) -> f64 {
     (0.5 * (peak * peak + time * time)).sqrt()
 }
 
-/// Place, in samples, and height of the parabola through a largest sample and those `half` to each side.
+/// Position, in samples, and height of the vertex of the parabola through the largest sample and those `half` to each
+/// side.
 fn vertex(values: &[f64], at: usize, half: usize) -> (f64, f64) {
     let there = (at as f64, values[at]);
     if at < half || at + half >= values.len() {
@@ -100,8 +101,8 @@ fn vertex(values: &[f64], at: usize, half: usize) -> (f64, f64) {
     (at as f64 + shift * half as f64, b - 0.25 * (a - c) * shift)
 }
 
-/// How many unrelated samples a history of residuals is worth: n/(1 + 2Σρ), summed until the autocorrelation ρ has died
-/// away.
+/// Number of independent samples in a history of residuals: n/(1 + 2Σρ), summed until the autocorrelation ρ is
+/// negligible.
 pub fn unrelated_samples(residuals: &[f64]) -> f64 {
     let n = residuals.len();
     let square: f64 = residuals.iter().map(|r| r * r).sum();
@@ -120,8 +121,8 @@ pub fn unrelated_samples(residuals: &[f64]) -> f64 {
     n as f64 / (1.0 + 2.0 * sum)
 }
 
-/// By how much a sum of squares may rise above its least value until the parameters leave their 95 % likelihood interval:
-/// F·χ²/n for normal residuals of unknown size, n of them unrelated.
+/// Rise of the sum of squares above its minimum at the border of the 95 % likelihood interval of the parameters: F·χ²/n
+/// for normal residuals of unknown variance, n of them independent.
 pub fn likelihood_rise(least_cost: f64, unrelated: f64) -> f64 {
     least_cost * CHI_SQUARE_95 / unrelated.max(1.0)
 }

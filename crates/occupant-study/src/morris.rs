@@ -16,27 +16,27 @@ pub(super) struct Trajectory {
 }
 
 impl Trajectory {
-    /// The trajectory of a sample and how many steps of it have been made.
+    /// The trajectory of a sample, and the number of its steps made so far.
     pub(super) fn of_sample(index: u64, parameters: usize, levels: u64, seed: u64) -> (Self, usize) {
         let len = parameters as u64 + 1;
         (Trajectory { number: index / len, parameters, levels, seed }, (index % len) as usize)
     }
 
-    /// The step at which a parameter changes, from 0.
+    /// The step that changes a parameter, from 0.
     fn turn(&self, parameter: usize) -> usize {
         // one seed for each trajectory, as the permutation has no index of its own
         let seed = bits(self.seed, Purpose::Morris, self.number, u32::MAX, 1);
         permute(parameter as u64, self.parameters as u64, seed, 0) as usize
     }
 
-    /// The parameter that the last of so many steps changed, and by how much.
+    /// The parameter changed by the last of this many steps, and the change.
     pub(super) fn change(&self, steps: usize) -> Option<(usize, f64)> {
         let before = steps.checked_sub(1)?;
         let changed = (0..self.parameters).find(|d| self.turn(*d) == before)?;
         Some((changed, self.coordinate(changed, steps) - self.coordinate(changed, before)))
     }
 
-    /// The coordinate of a parameter in [0, 1] after so many steps.
+    /// Coordinate of a parameter in [0, 1] after this many steps.
     pub(super) fn coordinate(&self, parameter: usize, steps: usize) -> f64 {
         let draw = bits(self.seed, Purpose::Morris, self.number, parameter as u32, 0);
         let half = self.levels / 2;

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use occupant_units::trig::{erfc, ln};
 
-/// Φ(z), the part of a standard normal distribution below z.
+/// Φ(z), the cumulative standard normal distribution.
 pub(super) fn cumulative(z: f64) -> f64 {
     // Φ(z) = ½ erfc(−z/√2)
     0.5 * erfc(-z * FRAC_1_SQRT_2)

@@ -5,38 +5,38 @@ use crate::section::ApplyChoice;
 use occupant_scenario::{Diagnostics, Draft, Place, Wanted};
 use placed_text::Value as Written;
 
-/// A parameter that has found its places in the base scenario.
+/// A parameter bound to its targets in the base scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Its name, that of its column.
+    /// Name of the parameter and its column.
     pub name: String,
     /// SI unit of its numbers, angles in rad; empty for names, plain numbers and factors.
     pub unit: &'static str,
-    /// What is done with its number.
+    /// How its number changes the scenario's value.
     pub apply: ApplyChoice,
-    /// How its values are spread.
+    /// Law of its values.
     pub law: Law,
     /// Whether each of its values is run with every sample of the other parameters.
     pub crossed: bool,
-    /// Where it acts.
+    /// Values that it changes.
     pub targets: Vec<Target>,
 }
 
-/// A place where a parameter acts.
+/// A value that a parameter changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// Its path, without wildcards.
     pub path: String,
     /// SI unit of a number there.
     pub unit: &'static str,
-    /// What the base scenario says there.
+    /// The base scenario's value.
     pub base: Value,
 }
 
-/// A value put at a place.
+/// A value assigned to a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
-    /// The place, a path without wildcards.
+    /// A path without wildcards.
     pub path: String,
     /// The value in SI units.
     pub value: Value,
@@ -44,7 +44,7 @@ pub struct Assignment {
     pub unit: &'static str,
 }
 
-/// SI unit of the numbers at a place; empty where none has one.
+/// SI unit of the numbers at a path; empty if there are none.
 pub(super) fn si_unit(wanted: &Wanted) -> &'static str {
     match wanted {
         Wanted::Quantity(kind) => kind.unit.expression(),
@@ -65,8 +65,7 @@ impl Target {
 }
 
 impl Assignment {
-    /// The value as [`Draft::set_value`] and `--set` read it; it gives the same bits
-    /// back.
+    /// The value in the form that [`Draft::set_value`] and `--set` read; it returns the same bits.
     pub fn text(&self) -> String {
         match &self.value {
             Value::Number(x) if self.unit.is_empty() => format!("{x:?}"),
@@ -78,13 +77,13 @@ impl Assignment {
     }
 }
 
-/// Puts values into a draft.
+/// Assigns values in a draft.
 pub(super) fn put(list: &[Assignment], draft: &mut Draft) -> Result<(), Diagnostics> {
     list.iter().try_for_each(|assignment| draft.set_value(&assignment.path, &assignment.text()))
 }
 
 impl Parameter {
-    /// Its value in the base scenario: a factor of 1, an offset of 0, or what stands there, if that is one value.
+    /// Its value in the base scenario: a factor of 1, an offset of 0, or the scenario's value if that is a single one.
     pub fn nominal(&self) -> Value {
         match self.apply {
             ApplyChoice::Factor => Value::Number(1.0),
@@ -99,7 +98,7 @@ impl Parameter {
         }
     }
 
-    /// Puts a value at its places, over what has been put there before.
+    /// Assigns a value to its targets, replacing earlier assignments.
     pub(super) fn assign(&self, value: &Value, list: &mut Vec<Assignment>) {
         for target in &self.targets {
             let put = match (self.apply, value) {
@@ -114,7 +113,7 @@ impl Parameter {
     }
 }
 
-/// What stands at a target now, changed.
+/// The present value at a target, changed by `value`.
 pub(super) fn changed(target: &Target, list: &[Assignment], change: impl Fn(f64) -> f64) -> Value {
     let earlier = list.iter().find(|a| a.path == target.path).map(|a| &a.value);
     match earlier.unwrap_or(&target.base) {
@@ -123,7 +122,7 @@ pub(super) fn changed(target: &Target, list: &[Assignment], change: impl Fn(f64)
     }
 }
 
-/// Puts a value at a target, instead of an earlier one.
+/// Assigns a value to a target, replacing an earlier one.
 pub(super) fn place(target: &Target, value: Value, list: &mut Vec<Assignment>) {
     if value == Value::Base {
         return;

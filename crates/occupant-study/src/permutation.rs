@@ -7,14 +7,15 @@
 
 use super::random::{Purpose, bits};
 
-/// Rounds of the network: four make it pseudorandom for large halves (Luby, Rackoff 1988), more for small ones.
+/// Rounds of the Feistel network: four make it pseudorandom for large halves (Luby, Rackoff 1988), small ones need
+/// more.
 const ROUNDS: u8 = 8;
 
-/// Least bits of a half. With halves of two bits a network reaches only some permutations, however many its rounds: the
-/// orders of five things then are unevenly likely (χ² of 300 with 119 degrees of freedom; 118 with four bits).
+/// Least number of bits of a half. With two bits a network reaches only some permutations, whatever its rounds: the
+/// orders of five things are then unevenly likely (χ² of 300 with 119 degrees of freedom; 118 with four bits).
 const LEAST_HALF_BITS: u32 = 4;
 
-/// Where the permutation of 0…n−1 named by seed and stream takes `index`; `index` itself if it is not below n.
+/// Image of `index` under the permutation of 0…n−1 given by seed and stream; `index` itself if it is not below n.
 pub(super) fn permute(index: u64, n: u64, seed: u64, stream: u32) -> u64 {
     if index >= n {
         return index;
@@ -29,7 +30,7 @@ pub(super) fn permute(index: u64, n: u64, seed: u64, stream: u32) -> u64 {
     }
 }
 
-/// b with 4^b ≥ n.
+/// Bits b of a half, the least with 4^b ≥ n.
 fn half_bits(n: u64) -> u32 {
     let bits = u64::BITS - n.saturating_sub(1).leading_zeros();
     bits.div_ceil(2).max(LEAST_HALF_BITS)

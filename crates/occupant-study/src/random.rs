@@ -5,13 +5,13 @@
 //! M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11 (2011); it passes TestU01's
 //! BigCrush. A generator with a state would have to be wound forward to every sample; this one has none.
 
-/// What numbers are drawn for, so that no two uses ever see the same ones.
+/// Purpose of random numbers, so that no two uses share a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(super) enum Purpose {
     /// Monte Carlo samples.
     MonteCarlo = 1,
-    /// Place within a stratum of a Latin hypercube.
+    /// Position within a stratum of a Latin hypercube.
     Jitter = 2,
     /// Rounds of a keyed permutation.
     Permutation = 3,
@@ -42,7 +42,7 @@ pub(super) fn unit(seed: u64, purpose: Purpose, index: u64, dimension: u32) -> f
     open_unit(bits(seed, purpose, index, dimension, 0) >> 12)
 }
 
-/// A random number in (0, 1) of a resample: the same for the same address, whoever asks.
+/// A random number in (0, 1) of a resample, a pure function of its address.
 pub fn of_resample(index: u64, dimension: u32) -> f64 {
     unit(0, Purpose::Bootstrap, index, dimension)
 }

@@ -4,7 +4,7 @@
 //! points of 2k dimensions give a row of A (first k) and one of B (last k). For each point in turn come A, AB₁ … ABₖ,
 //! where ABᵢ is A with column i of B, then BA₁ … BAₖ if second-order indices are wanted, then B.
 
-/// Which row of a point's block.
+/// Row of a point's block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Block {
     /// A.
@@ -36,12 +36,12 @@ impl Block {
     }
 }
 
-/// Runs for each point.
+/// Runs per point.
 pub(super) fn block_len(parameters: u64, second_order: bool) -> u64 {
     if second_order { 2 * parameters + 2 } else { parameters + 2 }
 }
 
-/// The point of a sample, and which row of its block it is.
+/// The point of a sample, and its row in the block.
 pub(super) fn place(index: u64, parameters: usize, second_order: bool) -> (u64, Block) {
     let len = block_len(parameters as u64, second_order);
     let row = (index % len) as usize;

@@ -31,40 +31,40 @@ pub fn schema_json() -> &'static Json {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudySection {
-    /// One line that names the study.
+    /// Title, one line.
     pub title: Option<String>,
-    /// What the study is about, for readers.
+    /// Notes for readers.
     pub notes: Option<String>,
     /// Units of bare numbers in this file; "si" if absent.
     pub units: Option<UnitSystem>,
-    /// The scenario file that is varied, its name relative to this file.
+    /// The scenario file to vary, relative to this file.
     pub base: String,
-    /// Names the random numbers of the study; the same seed gives the same samples everywhere; 0 if absent.
+    /// Seed of the random numbers; the same seed gives the same samples on every machine; 0 if absent.
     #[schemars(extend("minimum" = 0))]
     pub seed: Option<u64>,
-    /// Values that the base scenario has in all runs of this study, by path: `"time.end" = "0.25 s"`.
+    /// Values set in all runs of this study, by path: `"time.end" = "0.25 s"`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub set: IndexMap<String, Value>,
-    /// What is varied.
+    /// Parameters to vary.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parameters: Vec<ParameterSection>,
     /// Rank correlations between parameters, zero where none is given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<CorrelationSection>,
-    /// How the samples are chosen.
+    /// Design: the choice of samples.
     pub design: Option<Design>,
-    /// Repeats every sample with small changes, to see which figures are stable.
+    /// Repeats every sample with small changes, to see which results are stable.
     pub ensemble: Option<EnsembleSection>,
-    /// What `occupant fit` makes the parameters reproduce; a sweep does not look at it.
+    /// Target of `occupant fit`; a sweep ignores it.
     pub fit: Option<FitSection>,
-    /// Of which runs the whole motion is kept: "all", "none", a list of indices, or such as "worst 5 by hic15"; "none"
-    /// if absent.
+    /// Runs whose full result file is kept: "all", "none", a list of indices, or for example "worst 5 by hic15"; "none" if
+    /// absent.
     pub keep: Option<KeepSection>,
-    /// What is written besides the table of results.
+    /// Files written besides the table of results.
     pub output: Option<StudyOutputSection>,
 }
 
-/// Something that is varied.
+/// A parameter: one or several values of the scenario that are varied together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
@@ -76,44 +76,44 @@ pub struct StudySection {
 pub struct ParameterSection {
     /// Name of its column in the table of results; its path if absent.
     pub name: Option<String>,
-    /// Where it stands in the scenario, such as `joints.neck.damping` or, for a group, `joints.*.damping`.
+    /// Path of the value in the scenario, such as `joints.neck.damping` or, for a group, `joints.*.damping`.
     pub path: Option<String>,
-    /// Several places that are varied together.
+    /// Paths of several values that are varied together.
     #[schemars(extend("minItems" = 1))]
     pub paths: Option<Vec<String>>,
-    /// Stands for one parameter a segment of the body, left and right together, such as `segments.thigh`: a factor on
-    /// its mass and moments of inertia, evenly between 1 minus and 1 plus this. By "15 %" tables of people differ.
+    /// Adds one parameter per segment of the body, left and right together, such as `segments.thigh`: a factor on its mass
+    /// and moments of inertia, uniform between 1 minus and 1 plus this. Anthropometric tables differ by about 15 %.
     pub segments: Option<Ratio<FRACTION>>,
-    /// What is done with the number; "value" if absent.
+    /// How the number changes the scenario's value; "value" if absent.
     pub apply: Option<ApplyChoice>,
     /// Evenly spaced values.
     pub grid: Option<GridSection>,
-    /// These values: numbers, or texts such as names of materials or of files.
+    /// A list of values: numbers, or text such as names of materials or files.
     #[schemars(extend("minItems" = 1))]
     pub list: Option<Vec<Value>>,
     /// True: every value of its list or grid is run with every sample of the other parameters, such as each pulse with each
     /// seat. The number of runs is that of the design times the number of these values.
     pub crossed: Option<bool>,
-    /// Any value between two.
+    /// Uniform between two values.
     pub range: Option<RangeSection>,
-    /// Values as likely as a distribution says.
+    /// A probability distribution.
     pub distribution: Option<Distribution<Value>>,
-    /// True: as a car's seats, belts and wheel and a person's stature and mass are usually spread, about what the base scenario or its class
-    /// says. Of `track`, `recline`, `slack`, `lap_above`, `d_ring.behind` and `d_ring.above` of `car.seats.*`, `car.wheel.ahead` and `above`,
-    /// `body.stature` and `body.mass`.
+    /// True: the built-in distribution for this path, about the value of the base scenario or its class. There is one for `track`, `recline`,
+    /// `slack`, `lap_above`, `d_ring.behind` and `d_ring.above` of `car.seats.*`, `car.wheel.ahead` and `above`, `body.stature` and
+    /// `body.mass`.
     pub usual: Option<bool>,
 }
 
-/// What is done with the number of a parameter.
+/// How the number of a parameter changes the scenario's value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ApplyChoice {
-    /// It replaces what the scenario says.
+    /// It replaces the scenario's value.
     #[default]
     Value,
-    /// What the scenario says is multiplied by it.
+    /// It multiplies the scenario's value.
     Factor,
-    /// It is added to what the scenario says.
+    /// It is added to the scenario's value.
     Offset,
 }
 
@@ -125,14 +125,14 @@ pub struct GridSection {
     pub from: Value,
     /// Last value.
     pub to: Value,
-    /// How many values.
+    /// Number of values.
     #[schemars(extend("minimum" = 2))]
     pub steps: u64,
     /// "linear" has equal differences, "log" equal ratios; "linear" if absent.
     pub scale: Option<ScaleChoice>,
 }
 
-/// Any value between two, each equally likely.
+/// Uniform between two values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RangeSection {
@@ -140,7 +140,7 @@ pub struct RangeSection {
     pub from: Value,
     /// Largest value.
     pub to: Value,
-    /// With "log" equal ratios are equally likely; "linear" if absent.
+    /// "linear": uniform; "log": log-uniform; "linear" if absent.
     pub scale: Option<ScaleChoice>,
 }
 
@@ -165,48 +165,48 @@ pub struct CorrelationSection {
     pub rank: f64,
 }
 
-/// Small changes of every sample. A change is anywhere within plus and minus its tolerance, each place as likely.
+/// Small random changes of every sample, each uniform within ± its tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EnsembleSection {
-    /// How many runs for each sample; the first is the sample itself, unchanged.
+    /// Number of runs per sample; the first is the sample itself, unchanged.
     #[schemars(extend("minimum" = 2))]
     pub members: u64,
     /// Tolerance of each angle of the posture, or of the angles of the initial state.
     pub posture: Option<Angle<NOT_NEGATIVE>>,
-    /// Tolerance of the place of the occupant: heels and lateral seat place, or position in the initial state.
+    /// Tolerance of the occupant's position: heels and lateral seat position, or position in the initial state.
     pub place: Option<Length<NOT_NEGATIVE>>,
     /// Tolerance of the strength of the pulse, such as "1 %".
     pub path: Option<Ratio<FRACTION>>,
     /// Tolerance of the stiffness of each material and each belt, such as "2 %".
     pub stiffness: Option<Ratio<FRACTION>>,
     /// Tolerance of mass and inertia of each segment of the body, left and right together, such as "15 %", by which
-    /// tables of people differ.
+    /// anthropometric tables differ.
     pub segments: Option<Ratio<FRACTION>>,
     /// Further changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub perturbations: Vec<PerturbationSection>,
 }
 
-/// A small change of one place, or of several together.
+/// A small random change of one value, or of several together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
     "x-exactly-one" = [["path", "paths"], ["offset", "factor"]],
 ))]
 pub struct PerturbationSection {
-    /// Where.
+    /// Path of the value.
     pub path: Option<String>,
-    /// Several places that change together.
+    /// Paths of several values that change together.
     #[schemars(extend("minItems" = 1))]
     pub paths: Option<Vec<String>>,
-    /// Up to this much is added or taken away.
+    /// Varied by up to ± this value.
     pub offset: Option<Value>,
-    /// Up to this part is added or taken away, such as "2 %".
+    /// Varied by up to ± this fraction, such as "2 %".
     pub factor: Option<Ratio<FRACTION>>,
 }
 
-/// What is written besides the table of results.
+/// Files written besides the table of results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyOutputSection {

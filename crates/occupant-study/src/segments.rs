@@ -9,12 +9,12 @@ use super::parameter::Target;
 use occupant_scenario::Draft;
 use placed_text::{Step, parse_path};
 
-/// What makes a segment heavier.
+/// Keys that change the mass of a segment.
 const NUMBERS: [&str; 5] = ["mass", "weight", "inertia[0]", "inertia[1]", "inertia[2]"];
-/// What gives a person another size: segments of a body whose size varies are not those of the base.
+/// Keys that change the size of the body: its segments are then not those of the base.
 const SIZES: [&str; 5] = ["preset", "sex", "stature", "mass", "segment_count"];
 
-/// Each segment of the base scenario's body, left and right as one, with the places of its mass and inertia.
+/// Segments of the base scenario's body, left and right together, with the paths of their mass and inertia.
 pub(super) fn segments(base: &Draft) -> Vec<(String, Vec<Target>)> {
     let mut all: Vec<(String, Vec<Target>)> = Vec::new();
     for target in NUMBERS.iter().filter_map(|key| targets(base, &format!("body.segments.*.{key}")).ok()).flatten() {
@@ -30,7 +30,7 @@ pub(super) fn segments(base: &Draft) -> Vec<(String, Vec<Target>)> {
     all
 }
 
-/// The first of these places that changes the size of the body.
+/// The first of these targets that changes the size of the body.
 pub(super) fn size<'t>(places: impl Iterator<Item = &'t Target>) -> Option<&'t str> {
     let is_size = |path: &str| path.strip_prefix("body.").is_some_and(|key| SIZES.contains(&key));
     places.map(|target| target.path.as_str()).find(|path| is_size(path))

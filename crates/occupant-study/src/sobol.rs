@@ -11,20 +11,20 @@ use super::random::{Purpose, bits, open_unit};
 /// Binary digits of a coordinate.
 pub(super) const BITS: u32 = 52;
 
-/// Dimensions of which direction numbers are known.
+/// Number of dimensions with known direction numbers.
 pub(super) const MAX_DIMENSIONS: usize = DIRECTIONS.len() + 1;
 
 /// The direction numbers of one dimension, v₁ first, as 52-bit integers.
 type Directions = [u64; BITS as usize];
 
-/// The directions of the first dimensions.
+/// Direction numbers of the first dimensions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sobol {
     directions: Vec<Directions>,
 }
 
 impl Sobol {
-    /// Directions of so many dimensions, at most [`MAX_DIMENSIONS`].
+    /// Directions of this many dimensions, at most [`MAX_DIMENSIONS`].
     pub(super) fn new(dimensions: usize) -> Self {
         let first = std::array::from_fn(|i| 1 << (BITS as usize - 1 - i));
         let others = DIRECTIONS.iter().map(|(a, m)| directions(*a, m));
@@ -39,7 +39,7 @@ impl Sobol {
         set.fold(0, |x, (_, v)| x ^ v)
     }
 
-    /// A coordinate in (0, 1): the middle of its interval of 2⁻⁵².
+    /// A coordinate in (0, 1): the midpoint of its interval of 2⁻⁵².
     pub(super) fn plain(&self, index: u64, dimension: usize) -> f64 {
         open_unit(self.integer(index, dimension))
     }
@@ -66,7 +66,7 @@ fn directions(a: u32, m: &[u32]) -> Directions {
     v
 }
 
-/// Flips each bit by a random bit that belongs to the bits above it.
+/// Scrambles each bit by a random bit that depends on the bits above it.
 fn scramble(x: u64, seed: u64, dimension: u32) -> u64 {
     (0..BITS).fold(0, |done, level| {
         let at = BITS - 1 - level;

@@ -5,38 +5,38 @@
 
 use serde::Serialize;
 
-/// How a figure spreads over the members of an ensemble.
+/// Spread of a figure over the members of an ensemble.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Members that have the figure.
     pub members: usize,
-    /// Members that do not: failed runs, figures that are not defined.
+    /// Members without it: failed runs, undefined figures.
     pub missing: usize,
     /// Least.
     pub least: f64,
-    /// 5 % of the members lie below.
+    /// 5 % quantile of the members.
     pub q05: f64,
-    /// A quarter lies below.
+    /// 25 % quantile.
     pub q25: f64,
-    /// Half lie below.
+    /// Median.
     pub median: f64,
-    /// Three quarters lie below.
+    /// 75 % quantile.
     pub q75: f64,
-    /// 95 % lie below.
+    /// 95 % quantile.
     pub q95: f64,
     /// Largest.
     pub greatest: f64,
 }
 
-/// Whether a figure may be quoted as one number.
+/// Whether a figure may be quoted as a single number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The middle 90 % of the members agree within the tolerance.
     Stable,
-    /// They do not, or some member has no such figure while others have it.
+    /// They do not agree, or the figure is missing in some members.
     NotStable,
-    /// Too few members to say.
+    /// Too few members for a verdict.
     TooFew,
 }
 
@@ -51,12 +51,12 @@ impl Verdict {
     }
 }
 
-/// How far the members may differ in a stable figure.
+/// Limits on the spread of a stable figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rule {
-    /// Width of the middle 90 % as a part of the median's size.
+    /// Width of the middle 90 %, relative to the median.
     pub relative: f64,
-    /// The same as a plain difference, below which a figure is stable however small its median is.
+    /// Absolute width below which a figure is stable, however small its median.
     pub absolute: f64,
     /// Members needed for any verdict.
     pub least_members: usize,
@@ -73,7 +73,7 @@ impl Default for Rule {
 }
 
 impl Rule {
-    /// Width of the middle 90 % up to which a figure of this median is stable: max(relative·|median|, absolute).
+    /// Largest width of the middle 90 % of a stable figure with this median: max(relative·|median|, absolute).
     pub fn within(&self, median: f64) -> f64 {
         (self.relative * median.abs()).max(self.absolute)
     }
@@ -102,8 +102,8 @@ impl Spread {
         self.q95 - self.q05
     }
 
-    /// Whether the figure may be quoted as one number: q₉₅ − q₀₅ ≤ max(relative·|median|, absolute), and no member lacks
-    /// it.
+    /// Whether the figure may be quoted as a single number: q₉₅ − q₀₅ ≤ max(relative·|median|, absolute), and no member
+    /// lacks it.
     pub fn verdict(&self, rule: &Rule) -> Verdict {
         match (self.missing, self.members) {
             (_, n) if n + self.missing < rule.least_members => Verdict::TooFew,
@@ -113,7 +113,7 @@ impl Spread {
     }
 }
 
-/// The numbers in order, those that are no numbers left out.
+/// The numbers in increasing order, without NaN.
 fn sorted(values: &[f64]) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -145,24 +145,24 @@ fn quantile_of_sorted(sorted: &[f64], p: f64) -> f64 {
     }
 }
 
-/// The spread of one channel at each output time. NaN where no member has a value.
+/// Spread of one channel at each output time. NaN where no member has a value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
-    /// 5 % of the members lie below.
+    /// 5 % quantile of the members.
     pub q05: Vec<f64>,
-    /// A quarter lies below.
+    /// 25 % quantile.
     pub q25: Vec<f64>,
-    /// Half lie below.
+    /// Median.
     pub median: Vec<f64>,
-    /// Three quarters lie below.
+    /// 75 % quantile.
     pub q75: Vec<f64>,
-    /// 95 % lie below.
+    /// 95 % quantile.
     pub q95: Vec<f64>,
 }
 
 impl Band {
-    /// The band of one channel: a list for each member, one number for each output time. A member that ended early counts
-    /// for the times it has.
+    /// The band of one channel, from a list per member with one number per output time. A member that ended early
+    /// counts for the times it has.
     pub fn of(members: &[&[f64]]) -> Band {
         let times = members.iter().map(|m| m.len()).max().unwrap_or(0);
         let mut band = Band::default();
@@ -179,7 +179,7 @@ impl Band {
         band
     }
 
-    /// How many output times it has.
+    /// Number of output times.
     pub fn len(&self) -> usize {
         self.median.len()
     }
@@ -189,13 +189,14 @@ impl Band {
         self.median.is_empty()
     }
 
-    /// Largest size of the median: what a tolerance may be a part of.
+    /// Largest magnitude of the median: the reference of a relative tolerance.
     pub fn peak(&self) -> f64 {
         let sizes = self.median.iter().map(|x| x.abs());
         sizes.filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
-    /// The first output at which the middle 90 % is wider than `tolerance`, in the channel's unit; none if never.
+    /// Index of the first output at which the middle 90 % is wider than `tolerance`, in the channel's unit; none if
+    /// never.
     pub fn first_wider_than(&self, tolerance: f64) -> Option<usize> {
         let mut widths = self.q95.iter().zip(&self.q05).map(|(high, low)| high - low);
         widths.position(|width| width > tolerance)

@@ -4,7 +4,7 @@ use crate::section::{StudySection, schema_json};
 use occupant_scenario::check_words;
 use placed_text::{Diagnostics, Document, Format, Problem};
 
-/// A study text that has been read and whose words are right.
+/// A study text that was read and passed its own checks.
 #[derive(Clone, Debug)]
 pub struct StudyText {
     /// The study as it was written.
@@ -21,7 +21,7 @@ impl StudyText {
         StudyText::of(Document::read(text, format, name)?)
     }
 
-    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
+    /// Reads bytes of UTF-8 text; [`Format::of_text`] detects the format unless it is given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`StudyText::read`].

@@ -23,16 +23,17 @@ use crate::{
     BeltId, Error, ErrorKind, FrameId, MaterialId, Occupant, Scenario, Seat, SegmentId, SolidId, SphereId, SurfaceId,
 };
 
-/// A case that becomes a model. Nothing is checked before [`Case::model`], which reports every problem at once.
+/// A case that can be built into a model. Nothing is checked before [`Case::model`], which reports all problems at
+/// once.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub(crate) setup: Setup,
-    /// Its text, unless something was added in code.
+    /// Its text, unless it was changed in code.
     pub(crate) text: Option<Scenario>,
-    /// Triggers that need the path of the text in advance, and that path.
+    /// Triggers that need the path in advance, and that path.
     pub(crate) look_ahead: Option<(Vec<String>, VehiclePath)>,
     warnings: Vec<Problem>,
-    /// Whether it was begun in code.
+    /// Whether it was created in code.
     is_of_code: bool,
     origin: Origin,
     /// Names of calls that received ids of another case.
@@ -40,14 +41,14 @@ pub struct Case {
 }
 
 impl Case {
-    /// An occupant in a parked vehicle, with nothing to touch.
+    /// An occupant in a parked vehicle without surroundings.
     pub fn new(title: impl Into<String>, occupant: Occupant) -> Self {
         let mut setup = SetupBuilder::new(title, occupant.body, occupant.joints).setup;
         setup.time.end_s = 0.2;
         Case { is_of_code: true, ..Case::from_setup(setup) }
     }
 
-    /// A case from the simulator's plain data.
+    /// A case from plain data.
     pub fn from_setup(setup: Setup) -> Self {
         let (warnings, strange) = (Vec::new(), Vec::new());
         Case { setup, text: None, look_ahead: None, warnings, is_of_code: false, origin: Origin::new(), strange }
@@ -71,7 +72,7 @@ impl Case {
         Ok(Case { text: Some(scenario.clone()), look_ahead, warnings, ..Case::from_setup(setup) })
     }
 
-    /// The text as TOML of a case that was read from one.
+    /// The text as TOML, for a case read from one.
     ///
     /// # Errors
     /// A case built or changed in code, which has no text. To write a case, build it from a text: [`Scenario::set`]
@@ -92,12 +93,12 @@ impl Case {
         &self.warnings
     }
 
-    /// The simulator's plain data.
+    /// The plain data.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// The same, mutable.
+    /// The plain data, mutable.
     pub fn setup_mut(&mut self) -> &mut Setup {
         self.text = None;
         &mut self.setup
@@ -146,7 +147,7 @@ impl Case {
         MaterialId(self.setup.materials.len() - 1, self.origin)
     }
 
-    /// Adds a surface of the vehicle that is open towards a point, m.
+    /// Adds a surface of the vehicle whose open side faces a point, m.
     pub fn surface(&mut self, name: &str, of: MaterialId, outline: Outline, open_to_m: [f64; 3]) -> SurfaceId {
         self.know(name, of.1);
         let open_to = Point3::from(open_to_m);
@@ -173,7 +174,7 @@ impl Case {
         SurfaceId(self.setup.surfaces.len() - 1, self.origin)
     }
 
-    /// Adds a solid of the vehicle that every sphere can touch.
+    /// Adds a solid of the vehicle that all spheres can touch.
     pub fn solid(&mut self, name: &str, of: MaterialId, shape: Shape) -> SolidId {
         self.know(name, of.1);
         let (name, frame, material) = (name.to_owned(), Frame::Vehicle, of.0);
@@ -181,7 +182,7 @@ impl Case {
         SolidId(self.setup.solids.len() - 1, self.origin)
     }
 
-    /// Moves a surface with a frame.
+    /// Attaches a surface to a frame.
     pub fn carry(&mut self, surface: SurfaceId, with: FrameId) {
         let found = self.setup_mut().surfaces.get_mut(surface.0);
         let name = found.map(|found| {
@@ -193,7 +194,7 @@ impl Case {
         self.know(&name, with.1);
     }
 
-    /// Adds a belt round a sphere, from anchor to anchor, m.
+    /// Adds a belt around a sphere, from anchor to anchor, m.
     pub fn belt(&mut self, name: &str, round: SphereId, anchors_m: [[f64; 3]; 2], webbing: BilinearSpring) -> BeltId {
         self.know(name, round.1);
         self.setup_mut().belts.push(Belt::new(name, round.0, anchors_m.map(Point3::from), webbing));
@@ -210,7 +211,7 @@ impl Case {
         self.setup_mut().bags.push(bag);
     }
 
-    /// Adds a steering column that yields; it carries the frame that it names.
+    /// Adds a collapsing steering column; it carries the frame that it names.
     pub fn column(&mut self, column: Column) {
         self.setup_mut().columns.push(column);
     }
@@ -220,7 +221,7 @@ impl Case {
         self.frame(OtherFrame { name: name.into(), path, parent: None })
     }
 
-    /// Adds a panel that moves relative to the vehicle and turns about a point of it, m.
+    /// Adds a panel that moves relative to the vehicle and rotates about a point of it, m.
     pub fn panel(&mut self, name: &str, path: VehiclePath, about_m: [f64; 3]) -> FrameId {
         self.frame(OtherFrame { name: name.into(), path, parent: Some((Frame::Vehicle, about_m.into())) })
     }
@@ -230,7 +231,7 @@ impl Case {
         FrameId(self.setup.frames.len() - 1, self.origin)
     }
 
-    /// Adds a point of a segment whose motion is recorded, from the segment's lower end, m.
+    /// Adds a recorded point of a segment, from the segment's lower end, m.
     pub fn marker(&mut self, name: &str, of: SegmentId, from_lower_end_m: [f64; 3]) {
         self.know(name, of.1);
         let place_from_lower_end_m = from_lower_end_m.into();
@@ -249,15 +250,15 @@ impl Case {
         self.setup_mut().posture = InitialPosture::Seated(seat.seating);
     }
 
-    /// Notes a call that received an id of another case.
+    /// Notes a call with an id of another case.
     fn know(&mut self, name: &str, of: Origin) {
         if of != self.origin {
             self.strange.push(format!("`{name}` was given a part of another case"));
         }
     }
 
-    /// Places a body of the report's 12 segments upright with hanging arms, with the upper end of its middle torso at
-    /// this position in space, m.
+    /// Places a body with the report's 12 segments upright with hanging arms, the upper end of its middle torso at this
+    /// position in space, m.
     pub fn standing_at(&mut self, place_m: [f64; 3]) {
         let mut q = [0.0; DOF];
         q[..3].copy_from_slice(&place_m);
@@ -275,7 +276,8 @@ impl Case {
         self.setup_mut().time.output_s = interval_s;
     }
 
-    /// The integrator; by default as accurate as [`Accuracy::Engineering`](occupant_core::model::accuracy::Accuracy).
+    /// The integrator; by default with the accuracy of
+    /// [`Accuracy::Engineering`](occupant_core::model::accuracy::Accuracy).
     pub fn integrator(&mut self, integrator: Integrator) {
         self.setup_mut().integrator = integrator;
     }

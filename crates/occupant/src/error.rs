@@ -10,7 +10,7 @@ use occupant_core::vehicle::PathProblem;
 use occupant_scenario::Diagnostics;
 use placed_text::Problems;
 
-/// What kind of error it is.
+/// Kind of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
@@ -20,7 +20,7 @@ pub enum ErrorKind {
     Case,
     /// An unknown name.
     Name,
-    /// An impossible input: a time, a frame of the vehicle, a number.
+    /// An invalid input: a time, a frame of the vehicle, a number.
     Input,
     /// The integration could not continue.
     Integration,
@@ -80,7 +80,7 @@ impl std::error::Error for Error {
     }
 }
 
-/// `From` of errors of these kinds.
+/// Implements `From` for errors of these kinds.
 macro_rules! from {
     ($($Type:ty: $kind:ident),+ $(,)?) => {
         $(impl From<$Type> for Error {
@@ -127,12 +127,12 @@ impl From<RunError> for Error {
     }
 }
 
-/// A name that a model does not have.
+/// Error for a name that a model does not have.
 pub(crate) fn unknown<'n>(what: &'static str, name: &str, names: impl Iterator<Item = &'n str>) -> Error {
     Error::from(Unknown::new(what, name, names))
 }
 
-/// The channel of a name that a model does not have.
+/// The channel of a name, or the error that the model has none.
 pub(crate) fn no_channel(model: &Model, name: &str) -> Error {
     let all = occupant_core::results::channel::channels(model);
     let names = || all.iter().map(|channel| channel.name.as_str());

@@ -6,12 +6,12 @@ use occupant_core::body::Segment;
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::own::Place;
 
-/// The number of a case, which distinguishes ids of different cases.
+/// Identity of a case, which distinguishes ids of different cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Origin(u64);
 
 impl Origin {
-    /// A number that no case of the process has.
+    /// A number unique in the process.
     pub(crate) fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Origin(NEXT.fetch_add(1, Ordering::Relaxed))
@@ -27,7 +27,7 @@ macro_rules! ids {
             pub struct $Id(pub(crate) usize, pub(crate) Origin);
 
             impl $Id {
-                /// Its place in the lists of the [`Setup`](occupant_core::model::setup::Setup).
+                /// Its index in the lists of the [`Setup`](occupant_core::model::setup::Setup).
                 pub fn index(self) -> usize {
                     self.0
                 }
@@ -43,7 +43,7 @@ ids! {
     SurfaceId,
     /// A solid of a case.
     SolidId,
-    /// A belt round one sphere.
+    /// A belt around one sphere.
     BeltId,
     /// A contact sphere of the body.
     SphereId,
@@ -56,19 +56,19 @@ ids! {
 pub struct SegmentId(pub(crate) Segment, pub(crate) Origin);
 
 impl SegmentId {
-    /// As the simulator calls it.
+    /// The simulator's segment.
     pub fn segment(self) -> Segment {
         self.0
     }
 
-    /// A point of it, from its lower end, segment axes, m.
+    /// A point of the segment, from its lower end, segment axes, m.
     pub fn point(self, from_lower_end_m: [f64; 3]) -> Place {
         Place::Segment(self.0, from_lower_end_m.into())
     }
 }
 
 impl FrameId {
-    /// As the simulator calls it.
+    /// The simulator's frame.
     pub fn frame(self) -> Frame {
         Frame::Other(self.0)
     }

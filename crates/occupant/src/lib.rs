@@ -57,7 +57,7 @@ pub use occupant_scenario as scenario;
 #[cfg(any(feature = "mcap", feature = "parquet"))]
 pub use occupant_files as files;
 
-/// Everything that a program usually needs.
+/// The usual imports.
 pub mod prelude {
     pub use crate::measure::*;
     pub use crate::{
@@ -78,7 +78,7 @@ pub mod prelude {
     pub use occupant_units::unit::Unit;
 }
 
-/// What the front page of the package shows compiles.
+/// Compiles the example of the package's front page.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

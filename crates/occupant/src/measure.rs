@@ -34,17 +34,17 @@ measures! {
     Hic36: "hic36", "1";
     /// Largest acceleration of the head, m/s².
     HeadPeak: "head.peak", "m/s²";
-    /// Acceleration of the head that is exceeded for 3 ms in all, m/s².
+    /// Acceleration of the head exceeded for 3 ms in total, m/s².
     HeadThreeMs: "head.three_ms_cumulative", "m/s²";
     /// Largest acceleration of the chest, m/s².
     ChestPeak: "chest.peak", "m/s²";
-    /// Acceleration of the chest that is exceeded for 3 ms in all, m/s².
+    /// Acceleration of the chest exceeded for 3 ms in total, m/s².
     ChestThreeMs: "chest.three_ms_cumulative", "m/s²";
     /// Largest acceleration of the pelvis, m/s².
     PelvisPeak: "pelvis.peak", "m/s²";
     /// Neck injury criterion.
     Nij: "nij", "1";
-    /// Largest imbalance of energy as a part of the largest energy.
+    /// Largest error of the energy balance, relative to the largest energy.
     EnergyError: "energy.balance_error", "1";
 }
 

@@ -6,12 +6,12 @@ use placed_text::with_key;
 use crate::{Case, Error, ErrorKind};
 
 impl Case {
-    /// Gives the vehicle a path. [`Case::model`] refuses a text's triggers that were computed for another path.
+    /// Sets the vehicle's path. [`Case::model`] refuses a text's triggers that were computed for another path.
     pub fn path(&mut self, path: VehiclePath) {
         self.setup_mut().path = path;
     }
 
-    /// Straight travel of the vehicle, m/s, slowed by a pulse.
+    /// Straight motion at a speed, m/s, decelerated by a pulse.
     ///
     /// # Errors
     /// An impossible pulse.
@@ -20,7 +20,8 @@ impl Case {
         Ok(())
     }
 
-    /// The vehicle's motion is given during the run: [`Run::push`](crate::Run::push). It begins with the state `start`.
+    /// The vehicle's motion is given during the run with [`Run::push`](crate::Run::push). It starts with the state
+    /// `start`.
     ///
     /// # Errors
     /// A text with triggers that need the path in advance. The case then stays unchanged.
@@ -41,7 +42,7 @@ impl Case {
     }
 }
 
-/// Triggers computed for a path that is no longer used.
+/// Triggers computed for another path.
 fn looked_ahead(triggers: &[String]) -> Error {
     let names: Vec<String> = triggers.iter().map(|name| with_key("triggers", name)).collect();
     let found = "triggers that were evaluated on the path of the text, which is to be replaced";

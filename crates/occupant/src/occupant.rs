@@ -34,7 +34,7 @@ impl Occupant {
         Occupant { body, joints }
     }
 
-    /// Numbers of segments of people's bodies.
+    /// Allowed numbers of segments of a person.
     pub fn divisions() -> Vec<i64> {
         (1..=64).filter(|segments| Division::of(*segments).is_some()).collect()
     }
@@ -48,7 +48,8 @@ pub struct Seat {
 }
 
 impl Seat {
-    /// On a cushion, against a back, the heels at x and z of the vehicle, m. The body is lowered until springs and weight balance.
+    /// On a cushion, against a back, the heels at x and z of the vehicle, m. The body is lowered until springs and
+    /// weight are in balance.
     pub fn new(cushion: SurfaceId, back: SurfaceId, heels_m: [f64; 2]) -> Self {
         let surfaces = [cushion, back];
         let (cushion, back, angles_rad) = (cushion.0, back.0, Vec::new());
@@ -57,21 +58,21 @@ impl Seat {
         Seat { seating, surfaces }
     }
 
-    /// Beside the middle of the vehicle, m: to the right.
+    /// Lateral position, m to the right of the vehicle's middle plane.
     #[must_use]
     pub fn lateral(mut self, lateral_m: f64) -> Self {
         self.seating.lateral_m = lateral_m;
         self
     }
 
-    /// Leaning back by an angle of a segment, or turned by one of a hinge, rad: `upper_torso`, `elbows`.
+    /// Pitch of a segment (backward) or angle of a hinge, rad: `upper_torso`, `elbows`.
     #[must_use]
     pub fn angle(mut self, name: &str, angle_rad: f64) -> Self {
         self.seating.angles_rad.push((name.to_owned(), angle_rad));
         self
     }
 
-    /// The part that moves until springs and weight balance.
+    /// The part that is moved until springs and weight are in balance.
     #[must_use]
     pub fn settle(mut self, settle: Settling) -> Self {
         self.seating.settle = settle;

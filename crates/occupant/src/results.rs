@@ -30,22 +30,22 @@ impl Simulate for Model {
     }
 }
 
-/// A recorder for everything that results need.
+/// A recorder of everything that results need.
 #[derive(Clone, Debug)]
 pub struct Log {
     summarizer: Summarizer,
     series: Series,
-    /// The recorded run, from its first output on.
+    /// The recorded run from its first output.
     model: Option<Model>,
 }
 
 impl Log {
-    /// Keeps all channels.
+    /// Records all channels.
     pub fn new(model: &Model) -> Self {
         Log { summarizer: Summarizer::new(), series: Series::new(channels(model)), model: None }
     }
 
-    /// Keeps only the named channels.
+    /// Records only the named channels.
     ///
     /// # Errors
     /// An unknown channel.
@@ -143,7 +143,7 @@ impl Results {
         &self.series.time_s
     }
 
-    /// A channel, a value for each output time in its SI unit: `head.acceleration.resultant`.
+    /// A channel, one value per output time in its SI unit: `head.acceleration.resultant`.
     ///
     /// # Errors
     /// An unknown channel, or one that was not kept.

@@ -25,7 +25,7 @@ use crate::{Error, ErrorKind};
 #[derive(Clone)]
 pub struct Scenario {
     draft: Draft,
-    /// Files that it names, by name.
+    /// Files that it refers to, by name.
     files: Vec<(String, Vec<u8>)>,
 }
 
@@ -36,7 +36,7 @@ impl fmt::Debug for Scenario {
 }
 
 impl Scenario {
-    /// Reads TOML; whether the scenario is complete is checked when it is used.
+    /// Parses TOML; completeness is checked when the scenario is used.
     ///
     /// # Errors
     /// All syntax errors.
@@ -52,8 +52,8 @@ impl Scenario {
         Ok(Scenario { draft: Draft::read(text, Format::Json, "scenario")?, files: Vec::new() })
     }
 
-    /// The same with the bytes of a file that it names, such as the table of its path; they replace earlier ones of
-    /// that name.
+    /// The scenario with the bytes of a file that it refers to, such as the table of its path; they replace earlier
+    /// ones of that name.
     #[must_use]
     pub fn with_file(mut self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let name = name.into();
@@ -109,7 +109,7 @@ impl Scenario {
         Ok(self.draft.clone().load(&file)?)
     }
 
-    /// The plain data, the triggers that need the path in advance, and warnings.
+    /// Plain data, triggers that need the path in advance, and warnings.
     pub(crate) fn build(&self) -> Result<(Setup, Vec<String>, Vec<Problem>), Error> {
         let loaded = self.loaded()?;
         let (setup, warnings) = loaded.build()?;
@@ -135,7 +135,7 @@ fn written(value: &Value) -> Option<String> {
 
 #[cfg(feature = "serde")]
 impl serde::Serialize for Scenario {
-    /// As its TOML text.
+    /// Its TOML text.
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(&self.to_toml().map_err(serde::ser::Error::custom)?)
     }

@@ -3,19 +3,19 @@
 use crate::shown::shortened;
 use crate::source::{SourceId, Sources, Span};
 
-/// A cell: its words and place.
+/// A cell: its text and position.
 #[derive(Clone, Copy)]
 pub struct Cell<'a> {
-    /// Its words, trimmed.
+    /// Its text, trimmed.
     pub text: &'a str,
-    /// Their place.
+    /// Its position.
     pub span: Span,
 }
 
-/// Cells of a line that are read: none has as many columns, so one that does is refused for what it is read as.
+/// Largest number of cells of a line; a line with more is refused.
 pub const MOST_CELLS: usize = 10_000;
 
-/// Characters of a cell that messages show.
+/// Characters of a cell shown in messages.
 pub const CELL: usize = 40;
 
 /// `x[m]` or `x (m)` → `x` and `m`.
@@ -29,18 +29,18 @@ pub fn name_and_unit(text: &str) -> (&str, Option<&str>) {
     (text, None)
 }
 
-/// What stands between the cells of a text: semicolons, tabs, commas, or any number of blanks.
+/// Separator of a text's cells: semicolon, tab, comma, or blanks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
 impl Separator {
-    /// That of the text of which `line` is the first.
+    /// Separator of a text whose first line is `line`.
     pub fn of(line: &str) -> Self {
         let used = |sign: &char| line.trim_end().contains(*sign);
         Separator([';', '\t', ','].into_iter().find(used).unwrap_or(' '))
     }
 
-    /// That of a line of numbers: blanks where they leave numbers and commas do not, as where a comma is the decimal sign.
+    /// Separator of a line of numbers: blanks where they separate numbers and commas do not, as with decimal commas.
     fn of_numbers(line: &str) -> Self {
         let usual = Separator::of(line);
         let all = |separator: Separator| {
@@ -54,7 +54,7 @@ impl Separator {
         self.value(text).is_some()
     }
 
-    /// A finite number: the minus may be that of type-setters, the sign of the exponent the D of Fortran.
+    /// A finite number; a typographic minus and the D exponent of Fortran are allowed.
     fn value(self, text: &str) -> Option<f64> {
         let point = if self.0 == ',' { text.to_owned() } else { text.replace(',', ".") };
         let point = point.replace(['\u{2212}', '\u{2013}'], "-");
@@ -62,7 +62,8 @@ impl Separator {
         point.parse().ok().or_else(exponent).filter(|x: &f64| x.is_finite())
     }
 
-    /// The pieces of a line with where each begins. Nothing separates within double quotes, no blank a name from its unit.
+    /// Pieces of a line with their start positions. Separators in double quotes do not count, nor does a blank between
+    /// a name and its unit.
     fn pieces(self, line: &str) -> Vec<(usize, &str)> {
         let (mut pieces, mut start, mut quoted) = (Vec::new(), 0, false);
         for (at, sign) in line.char_indices() {
@@ -81,7 +82,7 @@ impl Separator {
         pieces
     }
 
-    /// The cells of a line, trimmed and without their quotes. A byte-order mark is no part of the first.
+    /// Cells of a line, trimmed and unquoted. A byte-order mark is skipped.
     pub fn cells(self, sources: &Sources, line: Span) -> Vec<Cell<'_>> {
         let text = sources.slice(line);
         let padding = |c: char| c.is_whitespace() || c == '"' || c == '\u{feff}';
@@ -96,7 +97,7 @@ impl Separator {
         self.pieces(text).into_iter().take(MOST_CELLS + 1).map(cell).collect()
     }
 
-    /// The number in a cell; the decimal sign may be a comma where none stands between cells.
+    /// Number in a cell; a decimal comma is allowed if commas do not separate cells.
     ///
     /// # Errors
     /// What was found instead of a finite number.
@@ -108,7 +109,7 @@ impl Separator {
     }
 }
 
-/// Words for a value that is missing.
+/// Words for a missing value.
 const MISSING: [&str; 17] = [
     "",
     "-",
@@ -129,32 +130,32 @@ const MISSING: [&str; 17] = [
     "not recorded",
 ];
 
-/// Whether a cell says that its value is missing.
+/// Whether a cell marks a missing value.
 pub fn is_missing(text: &str) -> bool {
     MISSING.contains(&text.trim().to_lowercase().as_str())
 }
 
-/// A text table: headings, units that may stand below them, and lines of cells.
+/// A text table: headings, optional units below them, and lines of cells.
 pub struct TextTable<'a> {
-    /// What stands between its cells.
+    /// Separator of its cells.
     pub separator: Separator,
     /// Its first line.
     pub first: Span,
-    /// Its headings; none if it begins with numbers.
+    /// Its headings; none if it starts with numbers.
     pub headings: Vec<Cell<'a>>,
-    /// Units in a line of their own below the headings; none if there is no such line.
+    /// Units from a separate line below the headings; none if there is no such line.
     pub units: Vec<Cell<'a>>,
     /// The lines below.
     pub lines: Vec<Span>,
-    /// Lines of text that stand before it.
+    /// Number of text lines before it.
     pub before: usize,
-    /// The first line behind it that is no part of it.
+    /// The first line after it that does not belong to it.
     pub behind: Option<Span>,
 }
 
 impl<'a> TextTable<'a> {
-    /// The table in a text, none in an empty one; `is_unit` says of a cell without brackets whether it is a unit. Words about it may stand before
-    /// and behind; of several tables the longest is taken.
+    /// The table in a text, none in an empty one; `is_unit` recognises a unit without brackets. Text may surround it;
+    /// of several tables the longest is used.
     pub fn of(sources: &'a Sources, id: SourceId, is_unit: impl Fn(&str) -> bool) -> Option<Self> {
         let lines: Vec<Span> = lines(sources, id).collect();
         let Some(body) = Body::longest(sources, &lines) else { return Self::at_first(sources, lines, is_unit) };
@@ -184,7 +185,7 @@ impl<'a> TextTable<'a> {
         })
     }
 
-    /// The table that begins with the first line, where no two lines of numbers agree.
+    /// The table that starts with the first line, if no two lines of numbers match.
     fn at_first(sources: &'a Sources, lines: Vec<Span>, is_unit: impl Fn(&str) -> bool) -> Option<Self> {
         let mut lines = lines.into_iter().peekable();
         let first = lines.peek().copied()?;
@@ -199,7 +200,7 @@ impl<'a> TextTable<'a> {
         Some(TextTable { separator, first, headings, units, lines: lines.collect(), before: 0, behind: None })
     }
 
-    /// The unit of a column, in its heading or below, with its place; none if there is none.
+    /// The unit of a column, from its heading or the line below, with its position; none if there is none.
     pub fn unit(&self, column: usize) -> Option<(&'a str, Span)> {
         let heading = self.headings.get(column)?;
         let below =
@@ -208,10 +209,10 @@ impl<'a> TextTable<'a> {
     }
 }
 
-/// Lines between two pages of a printout that are read over: title, number of the page.
+/// Largest number of lines skipped between two pages of a printout: title, page number.
 const BETWEEN_PAGES: usize = 12;
 
-/// A table whose headings stand on every page: its first line of all, its lines of numbers, and one past its last line.
+/// A table with headings repeated on every page: its first line, its lines of numbers, and one past its last line.
 fn pages(sources: &Sources, lines: &[Span], body: &Body, start: usize) -> (usize, Vec<Span>, usize) {
     let words = |line: &Span| sources.slice(*line).split_whitespace().collect::<Vec<_>>();
     let heads: Vec<_> = lines[start..body.first].iter().map(words).collect();
@@ -253,7 +254,7 @@ struct Body {
     first: usize,
     /// One past its last.
     end: usize,
-    /// Cells in a line.
+    /// Cells per line.
     count: usize,
 }
 
@@ -274,7 +275,7 @@ impl Body {
         best
     }
 
-    /// The table whose numbers begin with a line: two lines that agree, or one at the end of the text.
+    /// The table whose numbers start at a line: two matching lines, or one at the end of the text.
     fn from(sources: &Sources, lines: &[Span], first: usize) -> Option<Body> {
         let separator = Separator::of_numbers(sources.slice(lines[first]));
         let count = numbers(sources, separator, lines[first])?;
@@ -304,7 +305,7 @@ fn has_number(sources: &Sources, separator: Separator, line: Span) -> bool {
     separator.cells(sources, line).iter().any(|cell| separator.number(cell).is_ok())
 }
 
-/// How many cells a line has, if most that say something are numbers. A separator at the end opens no cell.
+/// Number of cells of a line, if most nonempty ones are numbers. A separator at the end opens no cell.
 fn numbers(sources: &Sources, separator: Separator, line: Span) -> Option<usize> {
     let cells = separator.cells(sources, line);
     let told = cells.iter().filter(|cell| !is_missing(cell.text)).count();
@@ -312,12 +313,12 @@ fn numbers(sources: &Sources, separator: Separator, line: Span) -> Option<usize>
     (2 * numbers > told).then_some(cells.len())
 }
 
-/// A unit without the brackets round it.
+/// A unit without its brackets.
 fn bare(unit: &str) -> &str {
     unit.trim_matches(['[', ']', '(', ')'])
 }
 
-/// The lines of a text that hold something.
+/// The nonempty lines of a text.
 pub fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
     let mut start = 0;
     sources

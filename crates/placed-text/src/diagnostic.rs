@@ -7,37 +7,37 @@ use crate::problem::{Problem, Severity};
 use crate::shown::{quoted, shown};
 use crate::source::{Position, Sources, Span};
 
-/// A problem and where it is.
+/// A problem with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// How bad it is, what was found, what was expected, how to mend it.
+    /// Severity, what was found, what was expected, and the remedy.
     pub problem: Problem,
-    /// Name of the text: the file, an override, a preset.
+    /// Name of the text: a file, an override, a preset.
     pub source: String,
-    /// Line and column, from 1; `None` where no text can be pointed at.
+    /// Line and column, from 1; `None` without a position in a text.
     pub position: Option<Position>,
-    /// The line of the offending words, shortened around them if it is long; `None` where no line is shown.
+    /// The line of the problem, shortened around it if it is long; `None` if no line is shown.
     pub line: Option<String>,
-    /// The characters of the line between which the words stand.
+    /// First character of the problem in the line, and the one after its last.
     words: [usize; 2],
 }
 
-/// The problems of a scenario, in the order in which they were found: of each severity the first 50, the rest is counted.
+/// Problems of a scenario, in the order found: the first 50 of each severity are kept, the others counted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagnostics {
     kept: Vec<Diagnostic>,
-    /// How many there are besides, warnings and errors.
+    /// Numbers of further warnings and errors.
     more: [usize; 2],
 }
 
-/// Problems of one severity that are kept.
+/// Number of problems kept per severity.
 const MOST: usize = 50;
 
-/// Characters of a long line shown on each side of the offending words.
+/// Characters shown on each side of the problem in a long line.
 const CONTEXT_CHARS: usize = 60;
 
 impl Diagnostic {
-    /// A problem whose words are known.
+    /// A problem at a known position.
     pub fn at(sources: &Sources, span: Span, problem: Problem) -> Self {
         let position = sources.position(span);
         let words = sources.slice(span).lines().next().unwrap_or("").chars().take(2 * CONTEXT_CHARS).count();
@@ -52,7 +52,7 @@ impl Diagnostic {
     }
 }
 
-/// A line, shortened around its words if it is long, and the characters between which they then stand.
+/// A line, shortened around the problem if it is long, and the problem's characters in it.
 fn excerpt(line: &str, start: usize, words: usize) -> (String, [usize; 2]) {
     let is_long = line.chars().nth(2 * CONTEXT_CHARS).is_some();
     let from = if is_long { start.saturating_sub(CONTEXT_CHARS) } else { 0 };
@@ -93,12 +93,12 @@ impl fmt::Display for Diagnostic {
 }
 
 impl Diagnostics {
-    /// No problem yet.
+    /// No problems.
     pub fn new() -> Self {
         Diagnostics::default()
     }
 
-    /// Adds one, unless the same is said of the same place already (of both joints of a pair, say).
+    /// Adds a problem, unless the same text is already there for the same position (as for both joints of a pair).
     pub fn push(&mut self, diagnostic: Diagnostic) {
         let same = |d: &Diagnostic| {
             d.position.is_some()
@@ -116,7 +116,7 @@ impl Diagnostics {
         }
     }
 
-    /// Adds a problem, whose place is only looked for while problems of its severity are kept.
+    /// Adds a problem; its position is determined only if it is kept.
     pub fn add(&mut self, problem: Problem, place: impl FnOnce(Problem) -> Diagnostic) {
         if self.is_full(problem.severity) {
             self.more[problem.severity as usize] += 1;
@@ -125,7 +125,7 @@ impl Diagnostics {
         }
     }
 
-    /// Whether more problems of a severity are only counted.
+    /// Whether further problems of a severity are only counted.
     pub fn is_full(&self, severity: Severity) -> bool {
         self.kept.iter().filter(|d| d.problem.severity == severity).count() >= MOST
     }
@@ -140,7 +140,7 @@ impl Diagnostics {
         }
     }
 
-    /// How many there are of a severity.
+    /// Number of problems of a severity.
     pub fn count(&self, severity: Severity) -> usize {
         self.kept.iter().filter(|d| d.problem.severity == severity).count() + self.more[severity as usize]
     }
@@ -150,17 +150,17 @@ impl Diagnostics {
         self.count(Severity::Error) > 0
     }
 
-    /// True if there is none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.kept.is_empty()
     }
 
-    /// How many there are.
+    /// Number of problems.
     pub fn len(&self) -> usize {
         self.kept.len() + self.more.iter().sum::<usize>()
     }
 
-    /// The same with at most so many to show; the others are counted.
+    /// The same with at most `most` to show; the others are counted.
     #[must_use]
     pub fn abridged(mut self, most: usize) -> Self {
         let left_out = self.kept.split_off(most.min(self.kept.len()));
@@ -168,7 +168,7 @@ impl Diagnostics {
         self
     }
 
-    /// Each that is kept in turn.
+    /// The kept problems.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
         self.kept.iter()
     }
@@ -181,7 +181,7 @@ impl From<Diagnostic> for Diagnostics {
 }
 
 impl fmt::Display for Diagnostics {
-    /// Each as in [`Diagnostic`], an empty line between two, and how many more there are.
+    /// Each as in [`Diagnostic`], separated by empty lines, then the number of further ones.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, diagnostic) in self.kept.iter().enumerate() {
             let gap = if i > 0 { "\n\n" } else { "" };

@@ -12,10 +12,10 @@ use crate::problem::Problem;
 use crate::source::{SourceId, Sources};
 use crate::{json, toml};
 
-/// A text that has been read: its tree, and the texts that the places of the tree point into.
+/// A parsed text: its tree, and the texts that positions in the tree refer to.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// Every text that places point into.
+    /// All texts that positions refer to.
     pub sources: Sources,
     /// The text itself.
     pub main: SourceId,
@@ -38,7 +38,8 @@ impl Document {
         Ok(Document { sources, main, root })
     }
 
-    /// The same of bytes of a file that another text names, of which messages quote no line; [`Format::of_text`] says the format.
+    /// Parses the bytes of a file that another text refers to, of which messages quote no line; [`Format::of_text`]
+    /// detects the format.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else everything that is wrong with its syntax.
@@ -53,7 +54,7 @@ impl Document {
         Ok(Document { sources, main, root })
     }
 
-    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
+    /// Reads bytes of UTF-8 text; [`Format::of_text`] detects the format unless it is given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`Document::read`].
@@ -77,7 +78,7 @@ impl Document {
         self.root.get(key).is_some()
     }
 
-    /// A problem at the words that its path points at.
+    /// A problem at the position of its path.
     pub fn place(&self, problem: Problem) -> Diagnostic {
         match locate(&self.root, &problem.path) {
             Some(span) => Diagnostic::at(&self.sources, span, problem),
@@ -85,8 +86,8 @@ impl Document {
         }
     }
 
-    /// Its sections, once it has passed the check; `what` is its name in messages. A difference between check and
-    /// sections is reported, not a panic.
+    /// Its sections after a successful check; `what` is its name in messages. A mismatch of check and sections is
+    /// reported, not a panic.
     ///
     /// # Errors
     /// The first such difference.
@@ -98,7 +99,7 @@ impl Document {
     }
 }
 
-/// Bytes as text; `name` is what messages call them.
+/// Bytes as text; `name` is their name in messages.
 ///
 /// # Errors
 /// The line of the first byte that is not UTF-8.
@@ -112,7 +113,7 @@ pub fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> 
     })
 }
 
-/// The bytes of a table as text, as [`decoded`]; `name` is what messages call them.
+/// Bytes of a table as text, as [`decoded`]; `name` is their name in messages.
 ///
 /// # Errors
 /// Bytes that are no text.

@@ -3,8 +3,8 @@
 /// Characters of the bytes 0x80 to 0x9f in Windows-1252; the others are those of Latin-1.
 const UPPER: &str = "€\u{81}‚ƒ„…†‡ˆ‰Š‹Œ\u{8d}Ž\u{8f}\u{90}‘’“”•–—˜™š›œ\u{9d}žŸ";
 
-/// The text of a table's bytes, and the name of their encoding where it is not UTF-8. A byte-order mark is no part of it, and every line ends
-/// with a line feed.
+/// Text of a table, and the name of its encoding if it is not UTF-8. The byte-order mark is removed, and lines end with
+/// a line feed.
 ///
 /// # Errors
 /// Bytes that are no text.

@@ -11,7 +11,7 @@ use crate::node::{Entry, Node, Table, Value};
 use crate::reader::Reader;
 use crate::source::{SourceId, Sources, Span};
 
-/// Nothing that goes beyond RFC 8259.
+/// Strict RFC 8259.
 const STRICT: ParseOptions = ParseOptions {
     allow_comments: false,
     allow_loose_object_property_names: false,

@@ -67,10 +67,10 @@ pub use source::{Position, SourceId, Sources, Span};
 #[cfg(feature = "documents")]
 pub use toml::parse_value;
 
-/// Names of a long list that are shown.
+/// Largest number of names shown from a long list.
 const NAMES: usize = 40;
 
-/// `"a", "b" or "c"`; of a long list the first.
+/// `"a", "b" or "c"`; the first of a long list.
 pub fn one_of(names: &[&str], quote: char) -> String {
     match names {
         [] => "no key at all".to_owned(),
@@ -86,10 +86,10 @@ pub fn quoted(names: &[&str], quote: char) -> String {
     each.join(", ")
 }
 
-/// How a hint begins that tells a name.
+/// Start of a hint with a name.
 const DID_YOU_MEAN: &str = "did you mean";
 
-/// The name that a misspelt one is most like, as a hint.
+/// Hint with the most similar name to a misspelt one.
 pub fn did_you_mean(word: &str, names: &[&str], quote: char) -> Option<String> {
     nearest(word, names.iter().copied()).map(|n| format!("{DID_YOU_MEAN} {quote}{n}{quote}?"))
 }

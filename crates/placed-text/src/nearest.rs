@@ -1,13 +1,22 @@
 //! Which of several words was meant by a misspelt one.
 
 /// The candidate most like `word`, if any is near enough to be meant: at most a third of the letters differ, or only
-/// upper and lower case. The first of several equally near ones; else the only one that contains the word.
+/// upper and lower case. The first of several equally near ones; else the only one that contains the word; else the
+/// first whose dotted parts begin with those of the word: `head.acc.x` means `head.acceleration.x`.
 pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.collect();
     alike(word, candidates.iter().copied()).or_else(|| {
         let mut longer = candidates.iter().filter(|c| word.len() > 3 && c.contains(word));
-        longer.next().filter(|_| longer.next().is_none()).copied()
+        let only = longer.next().filter(|_| longer.next().is_none()).copied();
+        only.or_else(|| candidates.into_iter().find(|c| abbreviates(word, c)))
     })
+}
+
+/// Whether each dotted part of `word`, of two or more, begins the same part of `whole`.
+fn abbreviates(word: &str, whole: &str) -> bool {
+    let (short, long): (Vec<_>, Vec<_>) = (word.split('.').collect(), whole.split('.').collect());
+    let begins = |(s, l): (&&str, &&str)| s.len() > 1 && l.starts_with(s) || s == l;
+    short.len() > 1 && short.len() == long.len() && short.iter().zip(&long).all(begins)
 }
 
 fn alike<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
@@ -21,8 +30,8 @@ fn alike<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'
         .map(|(_, candidate)| candidate)
 }
 
-/// How many letters must be put in, left out, changed or exchanged with their neighbour to make one word of another, each place at
-/// most once: the distance of optimal string alignment.
+/// Distance of optimal string alignment: insertions, deletions, substitutions and swaps of neighbours, each position at
+/// most once.
 fn distance(one: &str, other: &str) -> usize {
     let other: Vec<char> = other.chars().collect();
     let (mut before, mut row): (Vec<usize>, Vec<usize>) = (Vec::new(), (0..=other.len()).collect());
@@ -49,6 +58,15 @@ fn plain(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn abbreviated_parts_are_completed() {
+        let names = ["head.rotation.resultant", "head.acceleration.resultant", "head.acceleration.x"];
+        let nearest = |word| nearest(word, names.into_iter());
+        assert_eq!(nearest("head.acc.resultant"), Some("head.acceleration.resultant"));
+        assert_eq!(nearest("head.acc"), None);
+        assert_eq!(nearest("head..resultant"), None);
+    }
 
     #[test]
     fn letters_are_counted() {

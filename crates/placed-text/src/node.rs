@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize, forward_to_deserialize_any};
 
 use crate::source::{SourceId, Span};
 
-/// How a scenario text is written.
+/// Format of a scenario text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// TOML 1.1.
@@ -29,25 +29,25 @@ impl Format {
     }
 }
 
-/// A value and where it stands.
+/// A value with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Where.
+    /// Its position.
     pub span: Span,
-    /// What.
+    /// The value.
     pub value: Value,
-    /// Of a quantity its value in SI units, angles in radians, once the check has read it.
+    /// For a quantity: its value in SI units, angles in radians, set by the check.
     pub si: Option<f64>,
 }
 
-/// What is written at a place.
+/// A value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
     /// JSON's `null`.
     #[serde(skip)]
     Null,
-    /// Truth.
+    /// Boolean.
     Bool(bool),
     /// Whole number.
     Integer(i64),
@@ -58,25 +58,25 @@ pub enum Value {
     /// List.
     #[serde(skip)]
     Array(Vec<Node>),
-    /// Named values. Copies of a tree share them until one is changed.
+    /// Named values. Copies of a tree share them until one is changed (copy on write).
     #[serde(skip)]
     Table(Arc<Table>),
 }
 
-/// Named values in the order in which they were written.
+/// Named values in the order written.
 pub type Table = IndexMap<String, Entry>;
 
 /// A named value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Where the name stands.
+    /// Position of the name.
     pub key_span: Span,
     /// The value.
     pub node: Node,
 }
 
 impl Value {
-    /// The kind of value in words: `a number`, `a table`.
+    /// Kind of the value in words: `a number`, `a table`.
     pub fn kind(&self) -> &'static str {
         match self {
             Value::Null => "null",
@@ -118,10 +118,10 @@ fn entries(table: &Table) -> MapDeserializer<'_, impl Iterator<Item = (&str, &No
     MapDeserializer::new(table.iter().map(|(key, entry)| (key.as_str(), &entry.node)))
 }
 
-/// A value as a section takes it over, with its value in SI units if the check has read it as a quantity.
+/// A value for a section, with its SI value if the check has read it as a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
-    /// As it was written.
+    /// The value as written.
     pub value: Value,
     /// In SI units, angles in radians.
     pub si: Option<f64>,
@@ -145,7 +145,7 @@ impl<'de> Deserialize<'de> for Written {
     }
 }
 
-/// Takes truth, numbers and texts, and the pair that [`Node`] makes of a quantity.
+/// Accepts booleans, numbers and texts, and the pair that [`Node`] makes of a quantity.
 struct PlainOrQuantity;
 
 impl<'de> Visitor<'de> for PlainOrQuantity {
@@ -183,7 +183,7 @@ impl<'de> Visitor<'de> for PlainOrQuantity {
     }
 }
 
-/// A value whose meaning another part of the document decides.
+/// A value whose type is defined elsewhere in the document.
 impl JsonSchema for Value {
     fn inline_schema() -> bool {
         true
@@ -202,7 +202,7 @@ impl JsonSchema for Value {
 }
 
 impl Node {
-    /// Whether it says the same as another, wherever both stand.
+    /// Whether it equals another, ignoring positions.
     pub fn says(&self, other: &Node) -> bool {
         match (&self.value, &other.value) {
             (Value::Table(a), Value::Table(b)) => {
@@ -248,7 +248,7 @@ impl Node {
         self.as_table()?.get(key).map(|e| &e.node)
     }
 
-    /// Whether it says that it is taken away: `remove = true`.
+    /// Whether it has `remove = true`.
     pub fn is_removed(&self) -> bool {
         self.get("remove").is_some_and(|n| n.value == Value::Bool(true))
     }
@@ -261,7 +261,7 @@ impl Node {
         }
     }
 
-    /// The same tree as if it had been read from another text.
+    /// The same tree with positions in another text.
     pub fn moved_to(&self, source: SourceId) -> Node {
         let value = match &self.value {
             Value::Array(items) => Value::Array(items.iter().map(|item| item.moved_to(source)).collect()),
@@ -276,8 +276,7 @@ impl Node {
     }
 }
 
-/// Sections are read from the tree itself. A quantity that the check has read is the pair of its SI value and what is
-/// written.
+/// Deserialises sections directly from the tree. A checked quantity is the pair of its SI value and its text.
 impl<'de> Deserializer<'de> for &'de Node {
     type Error = Error;
 

@@ -7,18 +7,18 @@ use crate::source::Span;
 /// One step of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Into a table by key, or into a list of things by their `name`.
+    /// Key of a table, or `name` of an item of a list.
     Key(String),
-    /// Into a list, from 0.
+    /// Index of a list, from 0.
     Index(usize),
-    /// Into every table or list below that has what follows.
+    /// Every entry of a table or list that has the following steps.
     Every,
 }
 
-/// More steps than any path into a scenario has.
+/// Largest number of steps.
 const MAX_STEPS: usize = 32;
 
-/// Reads a path.
+/// Parses a path.
 ///
 /// # Errors
 /// Problems of it.
@@ -74,7 +74,7 @@ fn quoted_step(text: &str) -> Result<(Step, usize), String> {
     Ok((Step::Key(text[1..=inner].to_owned()), inner + 2))
 }
 
-/// The path of step texts, for messages.
+/// The path as text, for messages.
 pub fn to_text(steps: &[Step]) -> String {
     steps.iter().fold(String::new(), |path, step| with_step(&path, step))
 }
@@ -89,12 +89,12 @@ pub fn with_step(path: &str, step: &Step) -> String {
     }
 }
 
-/// Where the steps of a path lead in a tree.
+/// The node that the steps of a path lead to.
 pub fn follow<'a>(root: &'a Node, steps: &[Step]) -> Option<&'a Node> {
     steps.iter().try_fold(root, child)
 }
 
-/// The item of a node that a key or an index leads to. Items of lists are found by their `name`, too.
+/// The child of a node by key or index. Items of lists are also found by their `name`.
 pub fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     match (&node.value, step) {
         (Value::Table(table), Step::Key(key)) => table.get(key).map(|e| &e.node),
@@ -106,9 +106,9 @@ pub fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     }
 }
 
-/// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
+/// The existing paths matched by a path with wildcards, in the explicit form of a scenario.
 ///
-/// A path without wildcards leads to itself, even where nothing stands yet.
+/// A path without wildcards matches itself, even if it does not exist yet.
 pub fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
     if !steps.contains(&Step::Every) {
         return vec![steps.to_vec()];
@@ -134,7 +134,7 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
     }
 }
 
-/// All items of a node, with the steps that lead to them.
+/// All children of a node, with their steps.
 pub fn children(node: &Node) -> Vec<(Step, &Node)> {
     match &node.value {
         Value::Table(table) => table.iter().map(|(key, entry)| (Step::Key(key.clone()), &entry.node)).collect(),
@@ -143,7 +143,7 @@ pub fn children(node: &Node) -> Vec<(Step, &Node)> {
     }
 }
 
-/// Where a path stands in a tree: its value, or the nearest part above it that exists.
+/// The value at a path in a tree, or the nearest existing ancestor.
 pub fn locate(root: &Node, path: &str) -> Option<Span> {
     let steps = parse(path).ok()?;
     let mut node = root;

@@ -5,10 +5,10 @@ use std::fmt;
 
 use crate::shown::number;
 
-/// How bad a problem is.
+/// Severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The run continues; the user should know.
+    /// The run continues; the user is told.
     Warning,
     /// The input cannot be used.
     Error,
@@ -24,15 +24,15 @@ impl Severity {
 /// One problem of an input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
-    /// Dotted path in the scenario, e.g. `belts.lap.anchors[1]`; empty for the whole.
+    /// Dotted path in the scenario, e.g. `belts.lap.anchors[1]`; empty for the whole text.
     pub path: String,
     /// What was found.
     pub found: String,
     /// What was expected.
     pub expected: String,
-    /// How to mend it, where that can be said.
+    /// How to correct it, if known.
     pub hint: Option<String>,
 }
 
@@ -69,12 +69,12 @@ impl fmt::Display for Problem {
     }
 }
 
-/// All problems of an input, in the order in which they were found.
+/// All problems of an input, in the order found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Problems(Vec<Problem>);
 
 impl Problems {
-    /// No problem yet.
+    /// No problems.
     pub const fn new() -> Self {
         Problems(Vec::new())
     }
@@ -121,7 +121,7 @@ impl Problems {
         }
     }
 
-    /// Adds an error for every thing (`what`, such as a belt, under `path`) whose name another one has already.
+    /// Adds an error for every item (`what`, such as a belt, under `path`) with a duplicate name.
     pub fn check_unique<'n>(&mut self, path: &str, what: &str, names: impl Iterator<Item = &'n str>) {
         let mut known = HashSet::new();
         for name in names.filter(|name| !known.insert(*name)) {
@@ -139,7 +139,7 @@ impl Problems {
         self.0.iter().any(|p| p.severity == Severity::Error)
     }
 
-    /// True if there is no problem at all.
+    /// True if there are no problems.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -5,7 +5,7 @@ use crate::node::{Node, Value};
 use crate::problem::Problem;
 use crate::source::{SourceId, Sources, Span};
 
-/// A text under reading.
+/// A text being read.
 pub(super) struct Reader<'a> {
     pub(super) sources: &'a Sources,
     pub(super) id: SourceId,
@@ -25,7 +25,7 @@ impl<'a> Reader<'a> {
         Span { source: self.id, start: range.start, end: range.end }
     }
 
-    /// Reports what stands at a place; what is read there is `null`.
+    /// Reports an error at a position; the value there becomes `null`.
     pub(super) fn reject(&mut self, span: Span, found: &str, expected: &str) -> Value {
         let problem = Problem::error("", found, expected);
         self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));

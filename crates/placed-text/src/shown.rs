@@ -1,34 +1,34 @@
 //! Text from outside as messages and tables show it.
 
-/// Characters of a message that are shown at most.
+/// Largest number of characters of a message shown.
 const LONGEST: usize = 600;
 
-/// Whether a character speaks to the terminal instead of the reader: control characters, and marks that turn the
-/// direction of writing.
+/// Whether a character controls the terminal instead of being text: control characters, and marks that change the
+/// writing direction.
 fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A text whose hidden characters are written as JSON writes them, `\u001b`, but for line ends, tabs and form feeds.
+/// A text with hidden characters escaped as in JSON, `\u001b`, except line ends, tabs and form feeds.
 pub fn plain(text: &str) -> String {
     escaped(text.chars(), |c| is_hidden(c) && !matches!(c, '\n' | '\t' | '\u{c}'))
 }
 
-/// A number as people write it: with an exponent where it would be a row of zeros, `1e-300`, and in 15 digits, which show no
-/// traces of its conversion (700 ms are 0.7 s, and not 0.7000000000000001).
+/// A number for display: with an exponent instead of many zeros, `1e-300`, and with 15 digits, which hide conversion
+/// errors (700 ms are 0.7 s, not 0.7000000000000001).
 pub fn number(value: f64) -> String {
     let value = format!("{value:.14e}").parse().unwrap_or(value);
     let is_plain = value == 0.0 || !value.is_finite() || (1e-6..1e12).contains(&value.abs());
     if is_plain { value.to_string() } else { format!("{value:e}") }
 }
 
-/// A text in one line: all hidden characters as in [`plain`], the middle of a long one left out.
+/// A text in one line: hidden characters escaped, the middle of a long one left out.
 pub fn shown(text: &str) -> String {
     shortened(text, LONGEST)
 }
 
-/// As [`shown`], in so many characters.
+/// As [`shown`], in at most `most` characters.
 pub fn shortened(text: &str, most: usize) -> String {
     let half = most / 2;
     if text.len() <= most || text.chars().nth(most).is_none() {
@@ -39,7 +39,7 @@ pub fn shortened(text: &str, most: usize) -> String {
     escaped(ends, is_hidden)
 }
 
-/// Characters of a quoted line: hidden ones as in [`plain`], a tab as a blank, which is one column wide.
+/// Characters of a quoted line: hidden ones escaped, a tab as one blank.
 pub(crate) fn quoted(line: &[char]) -> String {
     escaped(line.iter().map(|c| if *c == '\t' { ' ' } else { *c }), is_hidden)
 }
@@ -56,12 +56,12 @@ fn escaped(chars: impl Iterator<Item = char>, is_hidden: impl Fn(char) -> bool) 
     text
 }
 
-/// A number with so many decimals at most: without the zeros at its end.
+/// A number with at most this many decimals, without trailing zeros.
 pub fn trimmed(value: f64, decimals: usize) -> String {
     without_zeros(&format!("{value:.decimals$}")).to_owned()
 }
 
-/// The digits of a number with decimals without the zeros at their end.
+/// Digits of a decimal number without trailing zeros.
 pub fn without_zeros(digits: &str) -> &str {
     digits.trim_end_matches('0').trim_end_matches('.')
 }

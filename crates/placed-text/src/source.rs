@@ -30,7 +30,7 @@ impl Span {
 /// A named text.
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
-    /// File name as the user gave it, or words such as `--set path.speed`.
+    /// File name as the user gave it, or a description such as `--set path.speed`.
     name: Arc<str>,
     /// The text.
     text: Arc<str>,
@@ -38,7 +38,7 @@ struct Source {
     is_quoted: bool,
 }
 
-/// Line and column of a place, both counted from 1; the column counts characters.
+/// Line and column of a position, both from 1; the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
     /// Line.
@@ -52,7 +52,7 @@ pub struct Position {
 pub struct Sources(Vec<Source>);
 
 impl Sources {
-    /// No text yet.
+    /// No texts.
     pub fn new() -> Self {
         Sources::default()
     }
@@ -63,7 +63,7 @@ impl Sources {
         SourceId(self.0.len() - 1)
     }
 
-    /// Adds a text that another one names. It may be any file of the user's, so that messages name places in it but
+    /// Adds a text that another one refers to. It may be any file of the user, so messages give positions in it but
     /// quote no line.
     pub fn add_named(&mut self, name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceId {
         self.0.push(Source { name: name.into(), text: text.into(), is_quoted: false });
@@ -75,7 +75,7 @@ impl Sources {
         self.0.get(id.0).is_some_and(|s| s.is_quoted)
     }
 
-    /// The text with this name, if there is one already.
+    /// The text with this name, if there is one.
     pub fn named(&self, name: &str) -> Option<SourceId> {
         self.0.iter().position(|s| *s.name == *name).map(SourceId)
     }
@@ -100,7 +100,7 @@ impl Sources {
         Span { source: id, start: 0, end: self.text(id).chars().next().map_or(0, char::len_utf8) }
     }
 
-    /// The words of a span; empty if it lies outside its text or splits a character.
+    /// Text of a span; empty if it lies outside its text or splits a character.
     pub fn slice(&self, span: Span) -> &str {
         self.text(span.source).get(span.start..span.end).unwrap_or("")
     }

@@ -41,6 +41,7 @@ fn report_all(reader: &mut Reader, errors: Vec<Error>) {
         // The parser says "found, expected a, b": split so that both sides show.
         let message = error.message();
         let (found, expected) = message.split_once(", expected ").unwrap_or((message, "valid TOML"));
+        let expected = if expected == "literal string" { "quotes around text, such as \"50 km/h\"" } else { expected };
         reader.reject(span, found, expected);
     }
 }

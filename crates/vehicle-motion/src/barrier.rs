@@ -1,9 +1,9 @@
 //! Barriers and other obstacles beside the road.
 
-/// A barrier. Places are X and Y in vehicle-space, m.
+/// A barrier. Positions are X and Y in vehicle-space, m.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Barrier {
-    /// A rigid wall without end: all that lies behind a line.
+    /// A rigid infinite wall: the half space behind a line.
     Wall(Wall),
     /// A rigid upright cylinder.
     Pole(Pole),
@@ -11,7 +11,7 @@ pub enum Barrier {
     Block(Block),
     /// A rail on posts.
     Rail(Rail),
-    /// A mass that a force holds back over its way: a cushion, or a sign on a breakaway base.
+    /// A mass on a straight path, held back by a force: a crash cushion, or a sign on a breakaway base.
     Slider(Slider),
 }
 
@@ -46,20 +46,20 @@ pub struct Block {
     pub friction: f64,
 }
 
-/// A mass on a straight way, held back by a force.
+/// A mass on a straight path, held back by a force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slider {
     /// Corners of its convex outline, clockwise from above.
     pub corners_m: Vec<[f64; 2]>,
-    /// Mass that a car has to take along, kg.
+    /// Mass accelerated by the car, kg.
     pub mass_kg: f64,
-    /// Direction of its way, clockwise from X, rad; none: that of the vehicle that hits it.
+    /// Direction of its path, clockwise from X, rad; none: that of the vehicle that hits it.
     pub direction_rad: Option<f64>,
-    /// Force over its way: m and N, from 0; straight between.
+    /// Force over travel: m and N, from 0; linear between points.
     pub force_n: Vec<[f64; 2]>,
-    /// Share of the energy that comes back.
+    /// Share of the energy returned.
     pub returned: f64,
-    /// What holds behind the end of the force's table.
+    /// What happens at the end of the force's table.
     pub end: End,
     /// Friction.
     pub friction: f64,
@@ -70,7 +70,7 @@ pub struct Slider {
 pub struct Rail {
     /// From and to.
     pub line_m: [[f64; 2]; 2],
-    /// Whether the traffic runs on its left, seen from its start.
+    /// Whether the traffic is on its left, seen from its start.
     pub traffic_on_left: bool,
     /// Height at which its force acts, m.
     pub height_m: f64,
@@ -96,15 +96,15 @@ pub struct Rail {
     pub post_n_per_m: f64,
     /// Force at which a post yields, N.
     pub post_n: f64,
-    /// Way at which a post lets the rail go, m.
+    /// Deflection at which a post releases the rail, m.
     pub release_m: f64,
     /// Friction along it.
     pub friction: f64,
 }
 
 impl Rail {
-    /// A W-beam on steel posts every 1.905 m. Section values are those of the profile; the posts' force, the release and the
-    /// anchors are guesses that meet one remembered deflection.
+    /// A W-beam on steel posts every 1.905 m. Section values are those of the profile; the posts' force, the release
+    /// and the anchors are guesses, tuned to one remembered deflection.
     pub fn w_beam(line_m: [[f64; 2]; 2]) -> Self {
         Rail {
             line_m,
@@ -127,10 +127,10 @@ impl Rail {
     }
 }
 
-/// Behind the end of the way.
+/// End of a slider's path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// It stands: a cushion.
+    /// It stops: a cushion.
     Rigid,
     /// It is free: a breakaway base.
     Released,

@@ -1,9 +1,9 @@
 //! The body of a vehicle in contacts: outline, stiffness of its faces, spheres of its hull.
 
-/// Speed of approach without residual crush, m/s: 8 km/h.
+/// Impact speed without residual crush, m/s: 8 km/h.
 pub const NO_CRUSH_M_S: f64 = 2.222;
 
-/// Force per width of a face over its crush: A + B C over the residual crush C.
+/// Crush stiffness: force per width A + B C over the residual crush C.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffness {
     /// A, N/m.
@@ -13,7 +13,8 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// Of a vehicle whose residual crush at a full-width wall is C = (v − b₀)/b₁, b₀ 2.222 m/s: A = M b₀b₁/W, B = M b₁²/W.
+    /// Stiffness of a vehicle whose residual crush at a full-width wall is C = (v − b₀)/b₁, b₀ 2.222 m/s: A = M b₀b₁/W,
+    /// B = M b₁²/W.
     pub fn by_speed(mass_kg: f64, width_m: f64, crush_per_s: f64) -> Self {
         let per_width = mass_kg / width_m;
         Stiffness {
@@ -22,7 +23,7 @@ impl Stiffness {
         }
     }
 
-    /// Of a vehicle from one full-width wall test: speed and six depths C₁ to C₆, m, at equal distances over its width.
+    /// Stiffness from one full-width wall test: speed and six depths C₁ to C₆, m, at equal distances over its width.
     /// Exact for the profile: the energy ½M v² is that of the depths.
     pub fn by_test(mass_kg: f64, width_m: f64, speed_m_s: f64, depths_m: [f64; 6]) -> Self {
         let c = depths_m;
@@ -34,13 +35,13 @@ impl Stiffness {
         Stiffness::by_speed(mass_kg, width_m, (-half + (half * half - square * rest).sqrt()) / square)
     }
 
-    /// With its numbers times factors.
+    /// The stiffness with A and B scaled.
     pub fn scaled(self, of_a: f64, of_b: f64) -> Self {
         Stiffness { a_n_per_m: of_a * self.a_n_per_m, b_n_per_m2: of_b * self.b_n_per_m2 }
     }
 
-    /// Energy of residual depths at equal distances over a width, J, where the force leans by an angle from the face's normal:
-    /// (1 + tan²α) ∫ (A C + ½B C² + A²/2B), straight between the depths (CRASH3).
+    /// Crush energy of residual depths at equal distances over a width, J, with the force inclined to the face's
+    /// normal: (1 + tan²α) ∫ (A C + ½B C² + A²/2B), linear between the depths (CRASH3).
     pub fn damage_j(self, width_m: f64, depths_m: &[f64], lean_rad: f64) -> f64 {
         let Stiffness { a_n_per_m: a, b_n_per_m2: b } = self;
         let pieces = depths_m.len().saturating_sub(1).max(1) as f64;
@@ -56,7 +57,7 @@ impl Stiffness {
     }
 }
 
-/// A height at which nodes of a face stand, and its share of the stiffness.
+/// A row of contact nodes on a face: height, and share of the stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     /// Over the road at rest, m.
@@ -65,12 +66,12 @@ pub struct Row {
     pub share: f64,
 }
 
-/// Which crush the stiffness gives.
+/// Interpretation of the stiffness coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
-    /// The largest crush is the residual crush and A/B: for damage, EES, reconstruction. Pulses are too short.
+    /// Maximum crush = residual crush + A/B: for damage, EES, reconstruction. Pulses are too short.
     Residual,
-    /// The largest crush is longer by a share, at the same energy and residual crush: for pulses of occupants.
+    /// Maximum crush is longer by a share, with the same energy and residual crush: for pulses on occupants.
     Dynamic {
         /// The share, 0.2 by the one test with channels compared so far.
         longer: f64,
@@ -78,7 +79,7 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// Largest crush over that of residual reading.
+    /// Ratio of the maximum crush to that of the residual interpretation.
     pub fn stretch(self) -> f64 {
         match self {
             Reading::Residual => 1.0,
@@ -90,11 +91,11 @@ impl Reading {
 /// Sides of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Ahead, with its cut corners.
+    /// Front, with its cut corners.
     Front,
     /// To the right.
     Right,
-    /// Behind, with its cut corners.
+    /// Rear, with its cut corners.
     Rear,
     /// To the left.
     Left,
@@ -105,13 +106,13 @@ pub enum Side {
 pub struct Hard {
     /// Of which side.
     pub side: Side,
-    /// From and to along the side, m: ahead of the centre of gravity on the left and right, to the right in front and rear.
+    /// Range along the side, m: forward of the centre of gravity on the left and right, to the right in front and rear.
     pub span_m: [f64; 2],
     /// Factor on A and B.
     pub factor: f64,
 }
 
-/// How a vehicle crushes.
+/// Crush properties of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crush {
     /// Front.
@@ -124,9 +125,9 @@ pub struct Crush {
     pub end_rows: Vec<Row>,
     /// Rows of nodes of the sides.
     pub side_rows: Vec<Row>,
-    /// Shares of energy that come back, below A/B and above.
+    /// Shares of energy returned, below A/B and above.
     pub returned: [f64; 2],
-    /// Which crush is meant.
+    /// Interpretation of the stiffness.
     pub reading: Reading,
     /// Stiffer parts.
     pub hard: Vec<Hard>,
@@ -135,7 +136,7 @@ pub struct Crush {
 }
 
 impl Crush {
-    /// Of faces; rows by guess, returned shares 0.2 and 0.015, residual reading.
+    /// Crush of given faces, with guessed rows, returned shares 0.2 and 0.015, residual interpretation.
     pub fn of_faces(front: Stiffness, side: Stiffness, rear: Stiffness) -> Self {
         let row = |height_m, share| Row { height_m, share };
         Crush {
@@ -164,20 +165,20 @@ impl Crush {
 /// A sphere of the hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// Ahead of and to the right of the centre of gravity, and over the road at rest, m.
+    /// Position forward and right of the centre of gravity, and height over the road at rest, m.
     pub place_m: [f64; 3],
     /// Radius, m.
     pub radius_m: f64,
     /// Stiffness, N/m.
     pub stiffness_n_per_m: f64,
-    /// Whether what it was pressed in stays: roof.
+    /// Whether its crush is permanent: roof.
     pub is_roof: bool,
 }
 
 /// Outline, crush and hull.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// Front face ahead of the centre of gravity, m.
+    /// Distance of the front face forward of the centre of gravity, m.
     pub front_m: f64,
     /// Length, m.
     pub length_m: f64,
@@ -185,7 +186,7 @@ pub struct Body {
     pub width_m: f64,
     /// Height of the roof over the road, m.
     pub height_m: f64,
-    /// How far the corners are cut in plan, m.
+    /// Size of the cut corners in plan, m.
     pub corner_m: f64,
     /// Lower and upper edge of the outline over the road at rest, m.
     pub band_m: [f64; 2],
@@ -195,7 +196,7 @@ pub struct Body {
     pub hull: Vec<Ball>,
     /// Friction of the hull on ground of factor 1.
     pub hull_friction: f64,
-    /// Share of energy that a sphere of the hull gives back.
+    /// Share of energy returned by a sphere of the hull.
     pub hull_returned: f64,
 }
 
@@ -218,7 +219,8 @@ const SEDAN_M: [f64; 3] = [4.70, 1.82, 1.45];
 const SEDAN_FRONT_M: f64 = 2.05;
 
 impl Body {
-    /// Of a length, width and height, with its front a way ahead of the centre of gravity; its hull is that of a sedan scaled.
+    /// A body of a length, width and height, with the front a distance forward of the centre of gravity; its hull is
+    /// that of a sedan, scaled.
     pub fn sized(size_m: [f64; 3], front_m: f64, crush: Crush) -> Self {
         let [along, across, up] = [0, 1, 2].map(|i| size_m[i] / SEDAN_M[i]);
         let ball = |[x, y, z, radius_m]: [f64; 4], side: f64| Ball {
@@ -241,7 +243,7 @@ impl Body {
         }
     }
 
-    /// With its centre of gravity elsewhere: ahead and to the right, m. Heights count from the road and stay.
+    /// The body relative to another centre of gravity: forward and right, m. Heights are from the road and unchanged.
     pub(crate) fn shift(&mut self, ahead_m: f64, right_m: f64) {
         self.front_m -= ahead_m;
         for ball in &mut self.hull {

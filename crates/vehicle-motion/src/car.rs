@@ -35,7 +35,7 @@ pub struct Car {
 /// Two wheels on slides, mirrored about the middle plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axle {
-    /// Ahead of the centre of gravity, m; negative behind.
+    /// Position forward of the centre of gravity, m; negative behind.
     pub ahead_m: f64,
     /// Track width, m.
     pub track_m: f64,
@@ -49,11 +49,12 @@ pub struct Axle {
     pub jounce_n_s_per_m: f64,
     /// Damping in rebound at the wheel, N·s/m.
     pub rebound_n_s_per_m: f64,
-    /// Further force per difference of the two wheels' ways, N/m.
+    /// Force per difference of the two wheels' jounce, N/m.
     pub anti_roll_n_per_m: f64,
     /// Height of the roll centre over the road, m.
     pub roll_centre_m: f64,
-    /// Way ahead of a wheel for each metre of jounce: positive is anti-dive in front, negative anti-lift at the rear.
+    /// Forward displacement of a wheel per metre of jounce: positive is anti-dive in front, negative anti-lift at the
+    /// rear.
     pub anti_pitch: f64,
     /// Jounce at which the stop begins, m.
     pub jounce_stop_m: f64,
@@ -61,9 +62,9 @@ pub struct Axle {
     pub rebound_stop_m: f64,
     /// Stiffness of the stops, N/m; it doubles over the first 0.1 m.
     pub stop_n_per_m: f64,
-    /// Toe-in for each metre of jounce, rad/m; mirrored.
+    /// Toe-in per metre of jounce, rad/m; mirrored.
     pub bump_steer_rad_per_m: f64,
-    /// Camber for each metre of jounce, rad/m: positive leans the tops inward; mirrored.
+    /// Camber per metre of jounce, rad/m: positive leans the tops inward; mirrored.
     pub bump_camber_rad_per_m: f64,
     /// Whether the wheels are steered.
     pub is_steered: bool,
@@ -107,11 +108,11 @@ impl Class {
     ];
 }
 
-/// Rules for springs, dampers and anti-roll bars where a vehicle's own are not known: front and rear.
+/// Rules for springs, dampers and anti-roll bars of vehicles without their own values: front and rear.
 pub(crate) struct Ride {
     /// Undamped natural frequencies of the body on its springs, Hz.
     pub hz: [f64; 2],
-    /// Roll for each g of lateral acceleration.
+    /// Roll per g of lateral acceleration.
     pub roll_rad_per_g: f64,
     /// Shares of it that the axles resist.
     pub roll_shares: [f64; 2],
@@ -130,7 +131,7 @@ pub(crate) const RIDE: Ride = Ride {
 };
 
 impl Axle {
-    /// What presets share; the rest is 0.
+    /// Values common to all presets; the rest is 0.
     pub(crate) fn usual() -> Self {
         Axle {
             ahead_m: 0.0,
@@ -159,7 +160,7 @@ impl Car {
         class.preset().car()
     }
 
-    /// What presets share; the rest is 0 or nothing.
+    /// Values common to all presets; the rest is 0 or empty.
     pub(crate) fn usual() -> Self {
         let none = Stiffness { a_n_per_m: 0.0, b_n_per_m2: 0.0 };
         Car {
@@ -192,14 +193,14 @@ impl Car {
         0.25 * (self.front.track_m + self.rear.track_m) / self.height_m
     }
 
-    /// Load of each wheel of an axle at rest on level ground, N: front, rear.
+    /// Static wheel loads of each axle on level ground, N: front, rear.
     pub fn static_loads_n(&self) -> [f64; 2] {
         let weight = 0.5 * self.mass_kg * GRAVITY_M_S2 / self.wheelbase_m();
         [-self.rear.ahead_m * weight, self.front.ahead_m * weight]
     }
 
-    /// This vehicle with a further load at a place in body axes, seen from the present centre of gravity, and the shift of the
-    /// centre of gravity, m. Heights and axles are then counted from the new one.
+    /// The vehicle with a further load at a position in body axes, relative to the present centre of gravity, and the
+    /// shift of the centre of gravity, m. Heights and axles are then relative to the new one.
     pub fn with_load(&self, mass_kg: f64, place_m: V3) -> (Self, V3) {
         let all_kg = self.mass_kg + mass_kg;
         let shift_m = place_m * (mass_kg / all_kg);
@@ -216,7 +217,7 @@ impl Car {
         (loaded, shift_m)
     }
 
-    /// Problems of it.
+    /// Checks the vehicle.
     ///
     /// # Errors
     /// The first number that no car can have.
@@ -309,7 +310,7 @@ pub enum CarError {
         /// Tyre radius, m.
         radius_m: f64,
     },
-    /// Axles that do not stand on both sides of the centre of gravity.
+    /// Axles not on both sides of the centre of gravity.
     #[error(
         "the axles are {front_m} m and {rear_m} m ahead of the centre of gravity; expected the front axle ahead, the rear axle behind"
     )]
@@ -319,13 +320,13 @@ pub enum CarError {
         /// Rear, m.
         rear_m: f64,
     },
-    /// Moments that no body has.
+    /// Impossible moments of inertia.
     #[error("the inertia is impossible: it must be symmetric, with positive moments, none above the sum of the others")]
     Inertia,
-    /// The body without its wheels has no mass or inertia left.
+    /// No mass or inertia left for the body without its wheels.
     #[error("the wheels have all of the vehicle's mass or inertia")]
     Wheels,
-    /// Shares that do not sum to one.
+    /// Shares that do not sum to 1.
     #[error("the {what} shares sum to {sum}; expected four shares of at least 0 that sum to 1")]
     Shares {
         /// Brake or drive.

@@ -12,12 +12,12 @@ use crate::tyre::{Tyre, saturation, shear_n};
 use crate::{GRAVITY_M_S2, V3, WHEELS};
 use nalgebra::{Matrix3, Matrix6, Quaternion, Vector6};
 
-/// Spin below which a wheel counts as standing, rad/s.
+/// Spin below which a wheel counts as stopped, rad/s.
 const STANDING_RAD_S: f64 = 0.5;
-/// Time in which slips fade off the ground, s.
+/// Time constant with which slips decay off the ground, s.
 const FADING_S: f64 = 0.05;
 
-/// What the driver and the damage do at a time.
+/// Controls at a time, from driver and damage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Controls {
     /// Road-wheel angle of each wheel, rad; positive to the right.
@@ -33,30 +33,31 @@ pub struct Controls {
 pub struct WheelReport {
     /// Normal force, N.
     pub load_n: f64,
-    /// Shear force ahead and to the right, N.
+    /// Shear force forward and right, N.
     pub shear_n: [f64; 2],
-    /// Share of the friction in use; 1 slides as a whole.
+    /// Utilisation of friction; 1 is full sliding.
     pub saturation: f64,
-    /// Sliding velocity of the contact ahead and to the right, m/s.
+    /// Sliding velocity of the contact forward and right, m/s.
     pub slide_m_s: [f64; 2],
-    /// Where it meets the ground, vehicle-space, m.
+    /// Contact point, vehicle-space, m.
     pub contact_m: V3,
-    /// Brake torque that could act, N·m.
+    /// Available brake torque, N·m.
     pub brake_n_m: f64,
     /// Moment of the shear force about the axle, N·m.
     pub spun_n_m: f64,
-    /// Spin against its carrier, rad/s.
+    /// Spin relative to its carrier, rad/s.
     pub relative_spin_rad_s: f64,
     /// Energy in the tyre's radial spring, J.
     pub stored_j: f64,
 }
 
-/// What one evaluation found besides the rates.
+/// Results of one evaluation besides the rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
     /// Wheels.
     pub wheels: [WheelReport; WHEELS],
-    /// Acceleration of the centre of gravity less gravity, body axes, m/s²: what accelerometers there read.
+    /// Specific force at the centre of gravity (acceleration minus gravity), body axes, m/s²: the accelerometer
+    /// reading.
     pub felt_m_s2: V3,
     /// Angular acceleration, body axes, rad/s².
     pub turning_rad_s2: V3,
@@ -75,7 +76,7 @@ struct Wheel {
     axle: Axle,
 }
 
-/// A vehicle ready to be computed with.
+/// A vehicle prepared for simulation.
 #[derive(Clone, Debug)]
 pub struct Chassis {
     mass_kg: f64,
@@ -155,7 +156,7 @@ impl Chassis {
         speed_m_s / (self.tyre.radius_m - depth_m / 3.0)
     }
 
-    /// Place of a wheel's centre and direction of its axle to the right, body axes.
+    /// Position of a wheel's centre and direction of its axle to the right, body axes.
     pub(crate) fn wheel_at(&self, state: &State, i: usize, steer_rad: f64) -> (V3, V3) {
         let jounce_m = state.jounce_m()[i];
         let Wheel { centre_m, slide, .. } = self.wheels[i];
@@ -177,8 +178,8 @@ impl Chassis {
         V3::new(-sine, cosine * across, cosine * up)
     }
 
-    /// Force of a wheel's suspension against jounce, N, its damping power, W, and the energy that spring and stops hold, J; the
-    /// bar that joins the wheels of an axle counts half to each.
+    /// Suspension force against jounce, N, its damping power, W, and the energy of spring and stops, J; half of the
+    /// anti-roll bar counts for each wheel.
     fn suspension(&self, i: usize, jounce_m: f64, other_m: f64, rate_m_s: f64) -> [f64; 3] {
         let Wheel { axle, preload_n, .. } = &self.wheels[i];
         let damper = if rate_m_s > 0.0 { axle.jounce_n_s_per_m } else { axle.rebound_n_s_per_m } * rate_m_s;
@@ -197,7 +198,7 @@ impl Chassis {
         [spring + stop(into) - stop(out_of) + damper, damper * rate_m_s, stored]
     }
 
-    /// Rates of change of the state at these controls, where `held` wheels do not turn against their carriers.
+    /// Rates of change of the state at these controls, where `held` wheels do not rotate relative to their carriers.
     pub fn rates(
         &self,
         state: &State,
@@ -316,7 +317,7 @@ impl Chassis {
         rates.0[MOTION..].copy_from_slice(&work.sums());
     }
 
-    /// How a wheel meets the ground, and what its brake and drive do; powers are added to `work`.
+    /// Contact of a wheel with the ground, with its brake and drive torque; powers are added to `work`.
     fn meet(
         &self,
         of: &Carrier,
@@ -407,7 +408,7 @@ impl Chassis {
         }
     }
 
-    /// Slips of the law: those of the tread, with damping at low speed and the thrust of a leaning wheel.
+    /// Slips of the tyre law: those of the tread, with damping at low speed and camber thrust.
     fn law_slips(
         &self,
         slips: [f64; 2],
@@ -473,12 +474,12 @@ impl Chassis {
     }
 }
 
-/// A wheel's carrier and what is asked of the wheel, body axes.
+/// A wheel's carrier and its torques, body axes.
 struct Carrier {
     /// Wheel centre, vehicle-space, m.
     at_m: V3,
     axis: V3,
-    /// Velocity of the carrier at the body's origin, with the wheel's way along its slide.
+    /// Velocity of the carrier at the body's origin, including jounce.
     velocity: V3,
     turning: V3,
     spin: f64,
@@ -489,7 +490,7 @@ struct Carrier {
     is_held: bool,
 }
 
-/// What the ground, the brake and the drive do to a wheel, body axes.
+/// Force and moment on a wheel from ground, brake and drive, body axes.
 struct Met {
     force: V3,
     couple: V3,

@@ -5,7 +5,7 @@ use core::cmp::Ordering;
 use crate::V3;
 use libm::{atan, atan2, sin, tan};
 
-/// A number over time, linear between points and held before and behind.
+/// A number over time, linear between points and constant outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     times_s: Vec<f64>,
@@ -33,7 +33,7 @@ pub enum TableError {
         /// The time before, s.
         before_s: f64,
     },
-    /// A value that is no number.
+    /// A value that is not finite.
     #[error("value {0} is not a finite number")]
     NotFinite(usize),
     /// A line of one point, or of two that coincide.
@@ -86,13 +86,13 @@ impl Table {
         (self.values[next] - self.values[next - 1]) / (self.times_s[next] - self.times_s[next - 1])
     }
 
-    /// Times at which its slope may jump, s.
+    /// Times of its kinks, s.
     pub fn corners_s(&self) -> &[f64] {
         if self.times_s.len() < 2 { &[] } else { &self.times_s }
     }
 }
 
-/// Who drives. Torques are sums over the wheels.
+/// Driver model. Torques are sums over the wheels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Driver {
     /// Steering.
@@ -101,27 +101,27 @@ pub struct Driver {
     pub brake_n_m: Table,
     /// Drive torque, N·m; negative brakes by the engine.
     pub drive_n_m: Table,
-    /// Speed that drive and brakes follow in their place, m/s.
+    /// Target speed, instead of drive and brake torques, m/s.
     pub speed_m_s: Option<Table>,
-    /// Wheels that are locked from a time on, s.
+    /// Times from which wheels are locked, s.
     pub locked_from_s: [Option<f64>; crate::WHEELS],
-    /// Wheels that are locked from the first collision on.
+    /// Wheels that lock at the first collision.
     pub locked_on_impact: [bool; crate::WHEELS],
-    /// What he does from the first collision on.
+    /// Reaction to the first collision.
     pub on_impact: OnImpact,
 }
 
-/// What a driver does from his first collision on; the steering wheel stays where it was unless he continues.
+/// Reaction to the first collision; the steering wheel is held unless he continues.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum OnImpact {
-    /// Feet off.
+    /// Releases the pedals.
     #[default]
     Release,
-    /// Pedals stay where they were.
+    /// Holds the pedals.
     Hold,
-    /// Brakes with this torque, N·m, and drives no more.
+    /// Brakes with this torque, N·m, without drive.
     Brake(f64),
-    /// Goes on as if nothing had happened.
+    /// Continues unchanged.
     Continue,
 }
 
@@ -135,7 +135,7 @@ pub enum Steering {
 }
 
 impl Driver {
-    /// Hands and feet off.
+    /// No steering and no pedals.
     pub fn coasting() -> Self {
         Driver {
             steering: Steering::Table(Table::constant(0.0)),
@@ -148,7 +148,8 @@ impl Driver {
         }
     }
 
-    /// Acceleration with which he comes to his speed within 0.2 s, m/s²; none without such a speed, or after a first collision.
+    /// Acceleration that reaches the target speed within 0.2 s, m/s²; none without a target, or after a first
+    /// collision.
     pub(crate) fn speeds_up_m_s2(&self, time_s: f64, speed_m_s: f64, hit_s: Option<f64>) -> Option<f64> {
         let table = self.speed_m_s.as_ref().filter(|_| hit_s.is_none() || self.on_impact == OnImpact::Continue)?;
         Some(table.slope_at(time_s) + (table.at(time_s) - speed_m_s) / SPEED_S)
@@ -165,7 +166,7 @@ impl Driver {
         }
     }
 
-    /// Times at which an input may turn, s, in order.
+    /// Times at which an input may have a kink, s, in order.
     pub(crate) fn corners_s(&self) -> Vec<f64> {
         let mut all: Vec<f64> = [Some(&self.brake_n_m), Some(&self.drive_n_m), self.speed_m_s.as_ref()]
             .into_iter()
@@ -183,27 +184,28 @@ impl Driver {
     }
 }
 
-/// A driver who aims at the point of a line some way ahead (pure pursuit), looks every 10 ms, and acts after a delay.
+/// Path-following driver (pure pursuit): aims at a point of the line some distance ahead, updates every 10 ms, and
+/// reacts after a delay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Follower {
     /// Corners of the line, X and Y, m.
     line_m: Vec<[f64; 2]>,
-    /// Time from seeing to acting, s.
+    /// Reaction time, s.
     pub delay_s: f64,
     /// Largest rate of the road-wheel angle, rad/s.
     pub rate_rad_s: f64,
     /// Largest road-wheel angle, rad.
     pub most_rad: f64,
-    /// Time at which he lets go, s; the angle then stays.
+    /// Time at which he stops steering, s; the angle is then held.
     pub until_s: f64,
 }
 
-/// Time in which a driver makes up for what is missing of his speed, s.
+/// Time constant of speed control, s.
 const SPEED_S: f64 = 0.2;
 
-/// How often a driver looks, s.
+/// Update interval of the driver, s.
 pub const LOOK_S: f64 = 0.01;
-/// Preview: at least this far, m, or this long, s.
+/// Least preview distance, m, and preview time, s.
 const PREVIEW_M: f64 = 6.0;
 const PREVIEW_S: f64 = 0.6;
 
@@ -234,7 +236,7 @@ impl Follower {
         points.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(self.line_m[0])
     }
 
-    /// Road-wheel angle that he wants, rad, with the car at `position_m`, heading `yaw_rad`, at `speed_m_s`.
+    /// Road-wheel angle demanded, rad, with the car at `position_m`, heading `yaw_rad`, at `speed_m_s`.
     pub fn wants_rad(&self, position_m: V3, yaw_rad: f64, speed_m_s: f64, rear_m: f64, wheelbase_m: f64) -> f64 {
         let preview_m = PREVIEW_M.max(PREVIEW_S * speed_m_s);
         let (sine, cosine) = libm::sincos(yaw_rad);

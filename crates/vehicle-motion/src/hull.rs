@@ -7,21 +7,21 @@ use crate::crush::touch::Pose;
 use crate::ground::Ground;
 use crate::state::State;
 
-/// Speed over which friction turns, m/s.
+/// Regularisation speed of friction, m/s.
 const TURNS_M_S: f64 = 0.127;
-/// A hull this near the ground is looked at in every evaluation, m.
+/// Height of the hull over the ground below which it is evaluated, m.
 const NEAR_M: f64 = 0.05;
-/// The edge of a wheel: radius of its sphere, way from the axle, way from the middle plane, m.
+/// Edge of a wheel: radius of its sphere, distance from the axle, distance from the middle plane, m.
 const EDGE_M: [f64; 3] = [0.05, 0.08, 0.05];
 /// Stiffness of a wheel's edge against a curb, N/m, a guess: rim, bearing and links.
 const EDGE_N_PER_M: f64 = 2e6;
-/// Behind this depth an edge is twenty times as stiff, so that no wheel passes through a curb's face, m.
+/// Depth above which an edge is twenty times as stiff, so that no wheel passes through a curb's face, m.
 const EDGE_BOTTOMS_M: f64 = 0.05;
-/// Faces in a row that an edge remembers.
+/// Number of consecutive faces stored per edge.
 const FACES: usize = 4;
-/// An edge that is first seen deeper than this came in by the tread and does not count until it is out again, m.
+/// Depth above which an edge in first contact is ignored until it is out again, as it entered through the tread, m.
 const FRESH_M: f64 = 0.03;
-/// A vehicle that leans more (sine) may stand on the edges of its wheels.
+/// Lean (sine) above which a vehicle may stand on the edges of its wheels.
 const LEANS: f64 = 0.6;
 
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub(crate) struct Hull {
     reach_m: f64,
 }
 
-/// Memory of it.
+/// Its stored state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct HullMemory {
     /// Largest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
@@ -52,11 +52,11 @@ pub(crate) struct HullMemory {
     before_m: Vec<f64>,
     /// Whether it may touch within the next step.
     pub is_near: bool,
-    /// Least height over the ground when it was last looked at, m.
+    /// Least height over the ground at the last evaluation, m.
     pub clear_m: f64,
 }
 
-/// What the ground does to the hull: force and moment about the centre of gravity, vehicle-space, and the power taken.
+/// Ground contact of the hull: force and moment about the centre of gravity, vehicle-space, and the dissipated power.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Rub {
     pub force_n: V3,
@@ -73,7 +73,7 @@ struct Dip {
     normal: V3,
     stiffness: f64,
     is_edge: bool,
-    /// How much it counts.
+    /// Weight.
     counts: f64,
 }
 
@@ -193,7 +193,7 @@ impl Hull {
         sum
     }
 
-    /// Stores depths; a sphere that is apart forgets, but the roof.
+    /// Stores depths; a separated sphere resets, except the roof.
     pub fn commit(
         &self,
         state: &State,

@@ -1,6 +1,6 @@
 //! Impacts by impulse and momentum: two bodies in plan, restitution, friction (Kudlich and Slibar).
 
-/// A body in plan: seen from above, turning clockwise.
+/// A body in plan view, rotating clockwise seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planar {
     /// Mass, kg; infinite for what does not move.
@@ -15,7 +15,7 @@ pub struct Planar {
     pub turning_rad_s: f64,
 }
 
-/// What an impact does.
+/// Result of an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blow {
     /// Impulse on the first body, X and Y, N·s.

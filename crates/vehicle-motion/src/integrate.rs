@@ -2,7 +2,7 @@
 
 use crate::state::{MOTION, State};
 
-/// What the error of a step is measured against.
+/// Scales of the step error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Of places and jounces, m.
@@ -21,12 +21,12 @@ impl Default for Tolerance {
     }
 }
 
-/// Vehicles, then whatever else moves: places and speeds by turns.
+/// State vector: vehicles, then everything else that moves, position and speed alternating.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Stack {
     pub cars: Vec<State>,
     pub more: Vec<f64>,
-    /// Of them those of light masses: rails.
+    /// Index of the first light mass: rails.
     pub light_from: usize,
 }
 
@@ -47,9 +47,9 @@ impl Stack {
     }
 }
 
-/// The pair, with room for its stages.
+/// The embedded pair with its stages.
 pub(crate) struct Pair {
-    /// The state after the last step that was tried, and its rate there.
+    /// State after the last attempted step, and its rate there.
     pub end: Stack,
     pub end_rate: Stack,
     stages: [Stack; 2],

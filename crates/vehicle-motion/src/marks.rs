@@ -4,10 +4,10 @@ use crate::WHEELS;
 use crate::ground::Ground;
 use crate::ride::{Ride, Station};
 
-/// A tyre leaves a mark where it uses more than this share of its friction and bears more than this, N.
+/// Least utilisation of friction for a tyre mark, and least load, N.
 const USED: f64 = 0.8;
 const BEARS_N: f64 = 200.0;
-/// Shorter marks are left out, m.
+/// Shortest mark, m.
 const SHORTEST_M: f64 = 0.2;
 
 /// A tyre mark.
@@ -15,7 +15,7 @@ const SHORTEST_M: f64 = 0.2;
 pub struct Mark {
     /// Number of the wheel.
     pub wheel: usize,
-    /// "skid" along the wheel, "yaw" across it, "furrow" in soil.
+    /// "skid" (longitudinal), "yaw" (lateral), "furrow" (in soil).
     pub kind: &'static str,
     /// From, s.
     pub from_s: f64,

@@ -8,8 +8,7 @@ use crate::V3;
 use crate::ride::{Ride, Station};
 use nalgebra::{Matrix3, UnitQuaternion};
 
-/// Steps closer than this to the one before give no station of their own, s: in so short a time the last digit of a place counts
-/// for more than the acceleration.
+/// Least interval of stations, s: for shorter ones, rounding of positions exceeds the acceleration.
 const CLOSE_S: f64 = 2e-4;
 
 /// Pose and motion of a point fixed in a vehicle. Vectors are in vehicle-space.
@@ -88,7 +87,7 @@ impl DrivenPath {
         self.stations.iter().map(|station| station.time_s)
     }
 
-    /// The motion at a time; at the ends of the drive for times outside.
+    /// The motion at a time; that at the ends for times outside.
     pub fn at(&self, time_s: f64) -> Motion {
         let next = self.stations.partition_point(|station| station.time_s <= time_s);
         let from = &self.stations[next.saturating_sub(1)];
@@ -189,7 +188,7 @@ impl Quintic {
     }
 }
 
-/// The turn that leads from one attitude to another, along its axis, rad.
+/// Rotation vector from one attitude to another, rad.
 fn turn(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> V3 {
     let between = (from.inverse() * to).into_inner();
     let between = if between.w < 0.0 { -between } else { between };

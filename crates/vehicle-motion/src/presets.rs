@@ -7,14 +7,14 @@ use crate::car::{Axle, Car, Class, RIDE};
 use crate::{GRAVITY_M_S2, V3};
 use nalgebra::Matrix3;
 
-/// How far a number can be trusted, best first.
+/// How well a number is known, best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Evidence {
     /// Published for this vehicle.
     Published,
-    /// Regression or median over published tests.
+    /// Regression or median of published tests.
     Fitted,
-    /// Follows from other numbers by a rule that measured cars obey.
+    /// Follows by rule from other numbers.
     Rule,
     /// Typical of the class; no source is quoted.
     Typical,
@@ -46,7 +46,7 @@ pub struct Preset {
     pub mass_kg: f64,
     /// Wheelbase.
     pub wheelbase_m: f64,
-    /// Centre of gravity behind the front axle.
+    /// Distance of the centre of gravity behind the front axle.
     pub behind_front_m: f64,
     /// Track width.
     pub track_m: f64,
@@ -56,7 +56,7 @@ pub struct Preset {
     pub size_m: [f64; 3],
     /// Front axle to front bumper.
     pub overhang_m: f64,
-    /// Speed of approach for each metre of residual crush, 1/s.
+    /// Impact speed per metre of residual crush, 1/s.
     pub crush_per_s: f64,
 }
 
@@ -134,7 +134,7 @@ impl Class {
 }
 
 impl Preset {
-    /// What is known of its numbers: the number, how far to trust it, where it is from.
+    /// Sources of its numbers: the number, how well it is known, the source.
     pub fn evidence(&self) -> [(&'static str, Evidence, &'static str); 7] {
         let measured = self.class.measured().is_some();
         let of_car = |else_is| if measured { Evidence::Published } else { else_is };

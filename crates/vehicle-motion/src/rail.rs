@@ -5,9 +5,9 @@ use crate::barrier::Rail;
 use crate::crush::law::Series;
 use crate::crush::touch::{Marks, Pose, Push, SQUARE, Shape};
 
-/// Masses for each post spacing.
+/// Masses per post spacing.
 const PER_POST: usize = 4;
-/// Speed over which friction turns, m/s.
+/// Regularisation speed of friction, m/s.
 const TURNS_M_S: f64 = 0.127;
 
 /// A rail ready to run.
@@ -23,29 +23,29 @@ pub(crate) struct Beam {
     pull_n_per_m: f64,
 }
 
-/// Memory of a rail.
+/// Stored state of a rail.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct BeamMemory {
     bent_per_m: Vec<f64>,
     set_m: Vec<f64>,
     let_go: Vec<bool>,
     stretched_m: f64,
-    /// Energy lost in yielding and with posts that let go, J.
+    /// Energy dissipated by yielding and released posts, J.
     pub lost_j: f64,
     pub most_m: f64,
     pub most_n: f64,
 }
 
 impl BeamMemory {
-    /// Posts that let go.
+    /// Number of released posts.
     pub fn released(&self) -> usize {
         self.let_go.iter().filter(|gone| **gone).count()
     }
 }
 
-/// A piece of rail beside a point: number of the mass behind it, share towards the next, way of the rail there, slope.
+/// Position on the rail beside a point: index of the mass before it, share towards the next, deflection, slope.
 type Beside = (usize, f64, f64, f64);
-/// Number of a node, the piece beside it, depth, normal on the vehicle, how squarely it meets it.
+/// Index of a node, the rail position beside it, depth, normal on the vehicle, cosine of the contact angle.
 type Press<'a> = dyn FnMut(usize, Beside, f64, V3, f64) + 'a;
 
 /// The rail's inner forces.
@@ -106,7 +106,7 @@ impl Beam {
         self.rail.kg_per_m * self.step_m + if Self::has_post(j) { self.rail.post_kg } else { 0.0 }
     }
 
-    /// Way of a mass away from the traffic, m; the ends beyond are pinned.
+    /// Deflection of a mass away from the traffic, m; the ends are pinned.
     fn way_m(&self, y: &[f64], j: isize) -> f64 {
         if j < 0 || j as usize >= self.count { 0.0 } else { y[2 * j as usize] }
     }
@@ -138,7 +138,7 @@ impl Beam {
         (self.rail.post_n_per_m * (y[2 * j] - memory.set_m[j])).clamp(-self.rail.post_n, self.rail.post_n)
     }
 
-    /// Rates of the masses: the state holds way and speed by turns; `loads` are the contact's forces on them, N.
+    /// Rates of the masses: the state has deflection and speed alternating; `loads` are the contact forces on them, N.
     pub fn rates(&self, y: &[f64], loads: &[f64], memory: &BeamMemory, rates: &mut [f64]) {
         let Inner { pull_n, .. } = self.inner(y, memory);
         let slope = |j: isize| {
@@ -158,7 +158,7 @@ impl Beam {
         }
     }
 
-    /// Yielding and posts that let go.
+    /// Applies yielding and releases posts.
     pub fn commit(&self, y: &[f64], memory: &mut BeamMemory) {
         let Rail { bend_n_m2, yield_n_m, post_n_per_m, post_n, release_m, yield_n, .. } = self.rail;
         for j in 0..self.count {

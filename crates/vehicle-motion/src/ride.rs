@@ -6,10 +6,10 @@ use crate::chassis::WheelReport;
 use crate::state::State;
 use crate::{V3, WHEELS};
 
-/// Where a vehicle starts, as it stands on the ground there.
+/// Start of a vehicle, in equilibrium on the ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Start {
-    /// Place of the centre of gravity in plan, m.
+    /// Position of the centre of gravity in plan, m.
     pub x_m: f64,
     /// To the right, m.
     pub y_m: f64,
@@ -42,7 +42,7 @@ pub struct Station {
     pub rotation_rad_s: V3,
     /// Angular acceleration, body axes, rad/s².
     pub turning_rad_s2: V3,
-    /// What accelerometers at the centre of gravity read, body axes, m/s².
+    /// Accelerometer reading at the centre of gravity, body axes, m/s².
     pub felt_m_s2: V3,
     /// Mean angle of the front wheels, rad.
     pub steer_rad: f64,
@@ -64,7 +64,7 @@ pub struct Ride {
     pub(crate) stations: Vec<Station>,
     /// Evaluations of the rates.
     pub evaluations: u64,
-    /// Steps that were tried and rejected.
+    /// Number of rejected steps.
     pub rejected: u64,
     pub(crate) balance: f64,
 }
@@ -80,12 +80,12 @@ impl Ride {
         &self.stations[self.stations.len() - 1]
     }
 
-    /// Error of the energy balance of all that was driven together, over the largest kinetic energy.
+    /// Error of the energy balance of everything driven together, relative to the largest kinetic energy.
     pub fn balance(&self) -> f64 {
         self.balance
     }
 
-    /// Place and attitude at a time within the drive, between the stations by cubics in place and by the shortest turn.
+    /// Position and attitude at a time within the drive, by cubics in position and by the shortest rotation.
     pub fn at(&self, time_s: f64) -> (V3, UnitQuaternion<f64>) {
         let next =
             self.stations.partition_point(|station| station.time_s < time_s).clamp(1, self.stations.len().max(2) - 1);
@@ -100,7 +100,7 @@ impl Ride {
     }
 }
 
-/// From one attitude to another by a share of the shortest turn.
+/// Attitude at a share of the shortest rotation from one to another.
 fn turned(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>, share: f64) -> UnitQuaternion<f64> {
     let (a, b) = (from.quaternion(), to.quaternion());
     let b = if a.dot(b) < 0.0 { -b } else { *b };

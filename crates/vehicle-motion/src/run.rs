@@ -14,7 +14,7 @@ use crate::world::{Begin, Entry, World, WorldError};
 pub struct Drive {
     chassis: Chassis,
     world: World,
-    /// What the error of a step is measured against.
+    /// Error tolerances.
     pub tolerance: Tolerance,
 }
 
@@ -35,7 +35,7 @@ impl Drive {
         &self.chassis
     }
 
-    /// State at the start: on the ground, wheels rolling unless they stand.
+    /// Initial state: on the ground, wheels rolling unless they are locked.
     pub fn state_at(&self, start: &Start) -> State {
         self.chassis.state_at(start, &self.world.ground)
     }

@@ -2,9 +2,9 @@
 
 use crate::barrier::{End, Slider};
 
-/// Way over which the force builds up at the start, m.
+/// Travel over which the force builds up, m.
 const BUILDS_M: f64 = 0.005;
-/// Stiffness behind the end of a rigid way, N/m.
+/// Stiffness at the end of a rigid path, N/m.
 const RIGID_N_PER_M: f64 = 5e7;
 
 /// A slider ready to run.
@@ -17,10 +17,10 @@ pub(crate) struct Slide {
     end: End,
 }
 
-/// Memory of it.
+/// Its stored state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SlideMemory {
-    /// Largest way, m.
+    /// Largest travel, m.
     pub most_m: f64,
     /// Direction, once it is known, rad.
     pub direction_rad: Option<f64>,
@@ -64,7 +64,7 @@ impl Slide {
         self.table_n(way_m) * (way_m / BUILDS_M).clamp(0.0, 1.0) + RIGID_N_PER_M * beyond_m.max(0.0)
     }
 
-    /// Energy that the table takes up, J.
+    /// Energy absorbed by the table, J.
     pub fn energy_j(&self, way_m: f64) -> f64 {
         let upto = way_m.clamp(0.0, self.end_m());
         let whole: f64 = self
@@ -80,7 +80,7 @@ impl Slide {
         whole - self.table_n(0.0) * (build - 0.5 * build * build / BUILDS_M)
     }
 
-    /// Energy that it took up or holds, J, at a way after a largest one.
+    /// Energy absorbed or stored at a travel after a maximum, J.
     pub fn taken_j(&self, way_m: f64, most_m: f64) -> f64 {
         let most_m = most_m.max(way_m);
         let (top_n, left_n) = (self.load_n(most_m), self.force_n(way_m, most_m));
@@ -95,7 +95,7 @@ impl Slide {
         self.energy_j(way_m) + end_n * beyond_m + 0.5 * RIGID_N_PER_M * beyond_m * beyond_m
     }
 
-    /// Force that holds it back, N, after a largest way.
+    /// Retaining force after a maximum travel, N.
     pub fn force_n(&self, way_m: f64, most_m: f64) -> f64 {
         if way_m >= most_m {
             return self.load_n(way_m);

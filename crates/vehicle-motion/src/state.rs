@@ -4,8 +4,8 @@ use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::{V3, WHEELS};
 
-/// Numbers of the state: place 3, attitude 4, velocity 3, rotation 3, and of each wheel jounce, its rate, spin and two slips;
-/// then the sums of work.
+/// Size of the state: position 3, attitude 4, velocity 3, rotation 3, and for each wheel jounce, its rate, spin and two
+/// slips; then the sums of work.
 pub const NUMBERS: usize = MOTION + SUMS;
 /// Numbers of the state without its sums of work.
 pub const MOTION: usize = 33;
@@ -16,10 +16,10 @@ pub const SUMS: usize = 10;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State(pub [f64; NUMBERS]);
 
-/// Work lost or put in since the start, J.
+/// Work dissipated or supplied since the start, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
-    /// Sliding of the tyres, with what their slips hold at the moment.
+    /// Sliding of the tyres, including energy stored in slips.
     pub sliding_j: f64,
     /// Dampers of suspension and tyres.
     pub damping_j: f64,
@@ -29,15 +29,15 @@ pub struct Work {
     pub rolling_j: f64,
     /// Air.
     pub air_j: f64,
-    /// Drive torque, put in.
+    /// Drive torque (supplied).
     pub driving_j: f64,
-    /// Taken up by crush, with what it holds at the moment.
+    /// Absorbed by crush, including stored energy.
     pub crush_j: f64,
-    /// This vehicle's half of what was lost in sliding along others.
+    /// This vehicle's half of friction losses along others.
     pub rubbing_j: f64,
-    /// Hull and rims on the ground, with what they hold at the moment.
+    /// Hull and rims on the ground, including stored energy.
     pub hull_j: f64,
-    /// What occupants and other pushes from outside put in.
+    /// Supplied by occupants and other external loads.
     pub pushed_j: f64,
 }
 
@@ -72,14 +72,14 @@ impl Work {
         ]
     }
 
-    /// All that was lost or is held in contacts, less what was put in, J.
+    /// Total dissipated or stored in contacts minus supplied, J.
     pub fn spent_j(&self) -> f64 {
         let out = self.sliding_j + self.damping_j + self.braking_j + self.rolling_j + self.air_j;
         out + self.crush_j + self.rubbing_j + self.hull_j - self.driving_j - self.pushed_j
     }
 }
 
-/// What acts on the body besides its wheels and air: force and moment about the centre of gravity, body axes, and powers.
+/// Loads on the body besides wheels and air: force and moment about the centre of gravity, body axes, and powers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outside {
     /// N.
@@ -159,7 +159,7 @@ impl State {
         self.0[21 + wheel] = spin_rad_s;
     }
 
-    /// Transient slips of a wheel, ahead and to the right.
+    /// Transient slips of a wheel, longitudinal and lateral.
     pub fn slips(&self, wheel: usize) -> [f64; 2] {
         [self.0[25 + wheel], self.0[29 + wheel]]
     }

@@ -24,7 +24,7 @@ pub struct Tyre {
     pub rim_depth_m: f64,
     /// Peak friction on a surface of factor 1.
     pub friction: f64,
-    /// Friction of fast sliding over peak friction.
+    /// Friction of fast sliding relative to peak friction.
     pub sliding_share: f64,
     /// Sliding speed over which friction falls from the peak to that of fast sliding, m/s.
     pub sliding_speed_m_s: f64,
@@ -32,7 +32,7 @@ pub struct Tyre {
     pub cornering_per_rad: f64,
     /// Reference load, N.
     pub reference_load_n: f64,
-    /// Load of the largest cornering stiffness over the reference load.
+    /// Load of the largest cornering stiffness, relative to the reference load.
     pub greatest_at: f64,
     /// Longitudinal slip stiffness per load.
     pub slip_stiffness: f64,
@@ -49,8 +49,8 @@ pub struct Tyre {
 }
 
 impl Tyre {
-    /// A passenger car's tyre of usual size. Stiffnesses lie between published tyres (ADAMS' in the CommonRoad models, Project
-    /// Chrono's sedan); relaxation, camber and damping are of the right size, not measured.
+    /// A typical passenger car tyre. Stiffnesses are between published tyres (ADAMS' in the CommonRoad models, Project
+    /// Chrono's sedan); relaxation, camber and damping are estimates.
     pub fn usual() -> Self {
         Tyre {
             radius_m: 0.32,
@@ -81,7 +81,7 @@ impl Tyre {
         [self.slip_stiffness * load_n, lateral]
     }
 
-    /// Friction while the contact slides at a speed, under a load, on a surface of the given factor.
+    /// Friction at a sliding speed, load, and surface factor.
     pub fn friction_at(&self, slide_m_s: f64, load_n: f64, surface: f64) -> f64 {
         let fall = self.sliding_share + (1.0 - self.sliding_share) * exp(-slide_m_s / self.sliding_speed_m_s);
         let loaded = (1.0 - self.friction_loss * (load_n / self.reference_load_n - 1.0)).max(0.3);
@@ -123,7 +123,7 @@ pub fn shear_n(slips: [f64; 2], stiffness_n: [f64; 2], most_n: f64) -> [f64; 2] 
     turned.map(|x| size * x / length)
 }
 
-/// Share z of the friction that a shear force uses up before it slides as a whole; 1 when it does.
+/// Utilisation z of friction by a shear force; 1 for full sliding.
 pub fn saturation(slips: [f64; 2], stiffness_n: [f64; 2], most_n: f64) -> f64 {
     let along = [stiffness_n[0] * slips[0], stiffness_n[1] * slips[1]];
     let elastic = (along[0] * along[0] + along[1] * along[1]).sqrt();

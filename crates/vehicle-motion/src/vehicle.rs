@@ -10,9 +10,9 @@ use crate::state::State;
 use crate::{V3, WHEELS};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-/// Spin against its carrier below which a braked wheel is held, rad/s.
+/// Relative spin below which a braked wheel is held, rad/s.
 const HELD_RAD_S: f64 = 0.5;
-/// A wheel is held when the ground turns it with less than this share of its brake.
+/// Largest ratio of ground torque to brake torque at which a wheel is held.
 const HELD_SHARE: f64 = 0.8;
 
 /// A vehicle ready to be driven.
@@ -31,17 +31,17 @@ pub(crate) struct Vehicle {
     steered: [bool; WHEELS],
 }
 
-/// What is remembered between steps.
+/// State stored between steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
     pub held: [bool; WHEELS],
     /// Road-wheel angle at two times, s and rad.
     steer: [(f64, f64); 2],
-    /// Angles that the follower wanted, newest last.
+    /// Angles demanded by the follower, newest last.
     wanted: Vec<(f64, f64)>,
-    /// When the follower looks next, s.
+    /// Time of the follower's next update, s.
     pub look_s: f64,
-    /// When it first hit something, s.
+    /// Time of the first collision, s.
     pub hit_s: Option<f64>,
 }
 
@@ -98,7 +98,7 @@ impl Vehicle {
         Controls { steer_rad, brake_n_m: pedals[0], drive_n_m: pedals[1] }
     }
 
-    /// The follower looks, and turns the wheel by what he wanted a delay ago.
+    /// Updates the follower, and applies the demand from one delay ago.
     pub fn look(&self, state: &State, time_s: f64, memory: &mut Memory) {
         let Steering::Follow(follower) = &self.driver.steering else { return };
         let [yaw, _, _] = state.yaw_pitch_roll_rad();
@@ -119,7 +119,7 @@ impl Vehicle {
         memory.steer = [(time_s, now), (memory.look_s, next)];
     }
 
-    /// Catches and frees wheels; true if the rates jump.
+    /// Locks and releases wheels; true if the rates jump.
     pub fn commit(&self, time_s: f64, state: &mut State, report: &Report, memory: &mut Memory) -> bool {
         let before = memory.held;
         for (i, wheel) in report.wheels.iter().enumerate() {
@@ -150,7 +150,7 @@ impl Vehicle {
         }
     }
 
-    /// Stops a wheel against its carrier. What is left of its spin goes into the brake.
+    /// Stops a wheel relative to its carrier. Its remaining spin energy goes into the brake.
     fn hold(&self, state: &mut State, time_s: f64, wheel: usize, memory: &Memory) {
         let steer = self.controls(time_s, state, memory).steer_rad[wheel];
         let axis = self.chassis.axle_direction(wheel, state.jounce_m()[wheel], steer);

@@ -4,7 +4,7 @@ use occupant_core::body::tti12::TTI12;
 
 use super::Back;
 
-/// Centres may differ from the report's by this much, m: rounding of their computation.
+/// Largest difference of sphere centres from the report's that counts as rounding, m.
 const SAME_PLACE_M: f64 = 1e-12;
 
 pub(super) fn read(back: &mut Back<'_>) {
@@ -20,7 +20,7 @@ pub(super) fn read(back: &mut Back<'_>) {
     spheres(back);
 }
 
-/// Cards know the 17 spheres of the report, at their places.
+/// Cards support the 17 spheres of the report only, in their positions.
 fn spheres(back: &mut Back<'_>) {
     let body = &back.setup.body;
     let rows = TTI12.spheres();

@@ -9,7 +9,7 @@ use super::points::{Polygon, place_points};
 use super::{Back, unit_of};
 use crate::compartment::{CompartmentLayout, Corner};
 
-/// Places may differ by this much of 1 m and of themselves, and be the same: rounding of the wheel's place.
+/// Tolerance of positions, in parts of 1 m plus the value, for rounding of the wheel's position.
 const SAME_PLACE: f64 = 1e-9;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
@@ -115,7 +115,7 @@ fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
     corner.wall.is_left == (place.y < 0.0)
 }
 
-/// A corner's place as the fields of series 8.
+/// Position of a corner as fields of series 8.
 fn fields_at(corner: &Corner, [x, z, width]: &[String; 3]) -> [(String, String); 3] {
     [
         (format!("XV({})", corner.x_of), x.clone()),
@@ -124,7 +124,7 @@ fn fields_at(corner: &Corner, [x, z, width]: &[String; 3]) -> [(String, String);
     ]
 }
 
-/// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
+/// Cards have no field for the wheel's position; a position other than that of a conversion is lost.
 fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface) {
     let Outline::Disc { centre_m, axis, .. } = &surface.outline else { return };
     let wheel = &layout.wheel;

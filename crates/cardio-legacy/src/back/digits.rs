@@ -12,12 +12,12 @@ use crate::write::punch_real;
 /// Columns of a number on most cards.
 const WIDTH: usize = 10;
 
-/// SI units in one unit of a card.
+/// SI units per unit of a card.
 pub(super) fn factor(unit: Unit) -> f64 {
     parse(unit.in_scenarios, 0).map_or(1.0, |scale| scale.factor)
 }
 
-/// The digits of `si` in a card's unit, and the number as it fits into ten columns where that is not the same.
+/// Digits of `si` in a card's unit, and the number as it fits into ten columns, if different.
 pub(super) fn digits(si: f64, unit: Unit) -> (String, Option<String>) {
     let exact = shortest(si, factor(unit));
     let Some(number) = Number::from_digits(&exact) else { return ("0".to_owned(), None) };
@@ -29,7 +29,7 @@ pub(super) fn digits(si: f64, unit: Unit) -> (String, Option<String>) {
     }
 }
 
-/// The shortest decimal number whose product with `factor` is `si`.
+/// Shortest decimal number whose product with `factor` is `si`.
 fn shortest(si: f64, factor: f64) -> String {
     let value = si / factor;
     if value == 0.0 || !value.is_finite() {
@@ -40,7 +40,7 @@ fn shortest(si: f64, factor: f64) -> String {
     plain(found.unwrap_or(value))
 }
 
-/// A number without exponent, unless it is very small or large.
+/// Number without exponent, unless very small or large.
 fn plain(value: f64) -> String {
     if (1e-5..1e10).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }

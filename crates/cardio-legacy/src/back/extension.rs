@@ -9,7 +9,7 @@ use crate::diagnostics::{Diagnostics, Sink};
 use crate::rule::Strictness;
 
 impl Deck {
-    /// The deck that extends this one's run from where it ended to `final_s`: NPOS = 1, series 6 and 14 in place of seating.
+    /// Deck that extends the run of this one from its end to `final_s`: NPOS = 1, series 6 and 14 in place of seating.
     ///
     /// # Errors
     /// What a reader would refuse in it, such as a final time beyond the last station of the path.
@@ -38,7 +38,7 @@ impl Deck {
     }
 }
 
-/// A number of a state as cards show it: six decimals, fewer where they would not leave a blank before the next field.
+/// Number of a state as on cards: six decimals, or fewer if they would leave no blank before the next field.
 fn rounded(name: &str, si: f64) -> String {
     let value = si / factor(unit_of(name));
     let texts = (0..=DECIMALS).rev().map(|decimals| format!("{value:.decimals$}"));

@@ -25,7 +25,7 @@ pub(super) fn read(back: &mut Back<'_>) {
     }
 }
 
-/// The law of a ball joint of the report's body.
+/// Law of a ball joint of the report's body.
 pub(super) fn ball_of(joints: &Joints, joint: occupant_core::body::Joint) -> BallJoint {
     joints[joint].ball().copied().unwrap_or_default()
 }
@@ -62,7 +62,7 @@ fn hinge(back: &mut Back<'_>, card: &Joint, joint: &HingeJoint) {
     }
 }
 
-/// No stop is two angles of zero.
+/// Two zero angles stand for no stop.
 fn stops(back: &mut Back<'_>, card: &Joint, stops: &[Option<Stop>]) {
     for ([begin, end], stop) in card.stops().into_iter().zip(stops) {
         if let Some(stop) = stop {

@@ -32,26 +32,26 @@ use crate::punched::{CARD_WIDTH, is_control};
 pub struct FromScenario {
     /// The deck.
     pub deck: Deck,
-    /// What the scenario does not say and was chosen, and numbers that ten columns cannot hold.
+    /// Values chosen where the scenario gives none, and numbers that ten columns cannot hold.
     pub remarks: Vec<String>,
 }
 
-/// Why a scenario has no deck.
+/// Reason why a scenario cannot be converted to a deck.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoDeck {
-    /// The scenario itself is refused.
+    /// The scenario itself is invalid.
     #[error("the scenario is refused:\n{0}")]
     Refused(Box<ScenarioDiagnostics>),
     /// The compartment's data file cannot be used.
     #[error("the compartment's data file cannot be used: {0}")]
     Compartment(String),
-    /// Features that cards have no place for, each with the key and what the cards can say instead.
+    /// Features without fields on cards, each with its key and the alternative on cards.
     #[error("the scenario does not fit on cards:{}", .0.iter().map(|misfit| format!("\n  - {misfit}")).collect::<String>())]
     Misfits(Vec<String>),
 }
 
 impl Deck {
-    /// The deck of a scenario.
+    /// Deck of a scenario.
     ///
     /// # Errors
     /// A scenario that is refused, or every feature of it that cards cannot hold.
@@ -75,14 +75,14 @@ impl Deck {
     }
 }
 
-/// A deck on its way back from a scenario.
+/// A deck during conversion from a scenario.
 struct Back<'a> {
     setup: &'a Setup,
     kept: Kept,
     deck: Deck,
     /// Passed pairs (sphere, surface), by the report's numbers.
     passed: Vec<(String, String)>,
-    /// Numbers that ten columns cannot hold, by the variable: what became of the first of them, and which they are.
+    /// Numbers that ten columns cannot hold, by variable: the first of them as rounded, and all their names.
     rounded: BTreeMap<String, (String, BTreeSet<String>)>,
     remarks: Vec<String>,
     misfits: Vec<String>,
@@ -107,7 +107,7 @@ impl<'a> Back<'a> {
         self.deck.set(&name, &digits);
     }
 
-    /// The digits of an SI number in the unit of a field; where they are rounded, that is noted by the variable.
+    /// Digits of an SI number in the unit of a field; rounding is noted by variable.
     fn fitting(&mut self, name: &str, unit: Unit, si: f64) -> String {
         let (digits, exact) = digits::digits(si, unit);
         if let Some(exact) = exact {
@@ -134,7 +134,7 @@ impl<'a> Back<'a> {
         numbers.into_iter().for_each(|(name, si)| self.set(format!("{name}({number})"), si));
     }
 
-    /// Sets a field that has to be the same wherever the scenario says it.
+    /// Sets a field that must have one value throughout the scenario.
     fn agree(&mut self, name: &str, si: f64, where_said: &str) {
         let (digits, _) = digits::digits(si, unit_of(name));
         match self.digits(name).map(str::to_owned) {
@@ -146,7 +146,7 @@ impl<'a> Back<'a> {
         }
     }
 
-    /// What has no place on cards; said once, however many cards show it.
+    /// Reports a feature without fields on cards, once.
     fn misfit(&mut self, text: impl Into<String>) {
         let text = text.into();
         if !self.misfits.contains(&text) {
@@ -196,7 +196,7 @@ impl<'a> Back<'a> {
         titles.map(|t| t.chars().take(CARD_WIDTH).map(punchable).collect::<String>().trim_end_matches(' ').to_owned())
     }
 
-    /// Fields that the scenario could not say and its notes kept.
+    /// Restores fields that the scenario could not hold and its notes kept.
     fn keep(&mut self) {
         let mut pairs = std::mem::take(&mut self.passed);
         for (name, value) in &self.kept {
@@ -227,12 +227,12 @@ impl<'a> Back<'a> {
     }
 }
 
-/// Whether Latin-1 has a character that takes one column.
+/// Whether a character is a printable one of Latin-1.
 fn is_punchable(c: char) -> bool {
     u8::try_from(u32::from(c)).is_ok_and(|byte| !is_control(byte))
 }
 
-/// What a scenario says for its readers and cards have no place for.
+/// Lists descriptive texts of a scenario that cards cannot hold.
 fn left_behind(back: &mut Back<'_>, scenario: &Scenario) {
     let notes = scenario.notes.as_deref().unwrap_or_default();
     let own = notes.split_once(notes::MARKER).map_or(notes, |(own, _)| own);

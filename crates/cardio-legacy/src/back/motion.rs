@@ -98,7 +98,7 @@ fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
     back.set_all([("XHPV", seating.heels_m[0]), ("ZHPV", seating.heels_m[1])]);
 }
 
-/// The seat by the notes, where the place sideways does not tell it.
+/// Seat from the notes, if the lateral position does not determine it.
 fn kept_seat(back: &Back<'_>) -> Option<usize> {
     let digits = back.kept.get("NOPTSP")?;
     (0..SEATS.len()).find(|at| digits.parse() == Ok((at + 1) as f64))
@@ -148,25 +148,27 @@ fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
     }
 }
 
-/// Where a run ended, as far as cards can say it. They carry no largest deformation, so an extension by cards is approximate.
+/// End of a run, as far as cards can hold it. They contain no largest deformations, so an extension by cards is
+/// approximate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunEnd {
     /// Time, s.
     pub time_s: f64,
     /// The report's coordinates and their rates, SI.
     pub coordinates: ReportCoordinates,
-    /// β₀ of the upper and the lower back joint, rad: the angles at which the spine's springs rest.
+    /// β₀ of the upper and the lower back joint, rad: rest angles of the spine's springs.
     pub spine_rest_rad: [f64; 2],
-    /// L₀ of the lap and of the torso belt, m, where there is one.
+    /// L₀ of the lap and of the torso belt, m, if present.
     pub belt_lengths_m: [Option<f64>; 2],
     /// Pairs (sphere, surface) that have passed the surface's edge, by the report's numbers.
     pub passed: Vec<(u32, u32)>,
 }
 
 impl RunEnd {
-    /// The end of a run from its last sample and β₀ of the two back joints, [`spine_rest`] of the first sample.
+    /// End of a run from its last sample and β₀ of the two back joints, [`spine_rest`] of the first sample.
     ///
-    /// None of a body that is not the report's.
+    ///
+    /// None for a body other than the report's.
     pub fn after(spine_rest_rad: [f64; 2], last: &Sample<'_>, layout: &CompartmentLayout) -> Option<Self> {
         let model = last.model;
         let loops_round =
@@ -184,7 +186,7 @@ impl RunEnd {
         })
     }
 
-    /// What series 6 says of it: fields and SI numbers.
+    /// Fields of series 6 and their SI numbers.
     pub(super) fn fields(&self) -> impl Iterator<Item = (String, f64)> {
         let springs = ["BETA4", "BETA7"].map(str::to_owned).into_iter().zip(self.spine_rest_rad);
         let lengths = ["BLTLEO(1)", "BLTLEO(2)"].map(str::to_owned).into_iter().zip(self.belt_lengths_m);

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use super::Back;
 
-/// What a polygon says of the fields of series 8, in each way in which its corners can be the layout's.
+/// Fields of series 8 that a polygon determines, for each assignment of its corners to the layout's.
 pub(super) struct Polygon {
     pub name: String,
     pub readings: Vec<Vec<(String, String)>>,
 }
 
-/// Which corner is which point shows only where surfaces meet: the choice is searched in which all surfaces agree, with one
-/// another and, if there is one, with the points that the notes keep of surfaces left out.
+/// Assignment of corners to points, which is determined only where surfaces meet: searched such that all surfaces agree
+/// with one another and with the points that the notes keep of omitted surfaces.
 pub(super) fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
     polygons.retain(|p| !p.readings.is_empty());
     let mut search = Search::from_known(kept_places(back));
@@ -33,13 +33,13 @@ pub(super) fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
     }
 }
 
-/// The fields of series 8 that the notes keep.
+/// Fields of series 8 that the notes keep.
 fn kept_places(back: &Back<'_>) -> BTreeMap<String, String> {
     let is_place = |name: &str| name.starts_with("XV(") || name.starts_with("ZV(") || name == "VCW" || name == "VRW";
     back.kept.iter().filter(|(name, _)| is_place(name)).map(|(name, digits)| (name.clone(), digits.clone())).collect()
 }
 
-/// Enough for any compartment whose surfaces meet; a bound for those that do not.
+/// Largest number of search steps: sufficient for any compartment whose surfaces meet.
 const SEARCH_BUDGET: usize = 20_000;
 
 struct Search {
@@ -53,7 +53,7 @@ impl Search {
         Self { known, deepest: 0, budget: SEARCH_BUDGET }
     }
 
-    /// Finds readings of the polygons from `at` on that agree with what is known.
+    /// Searches for assignments of the polygons from `at` on that agree with the known fields.
     fn from(&mut self, polygons: &[Polygon], at: usize) -> bool {
         self.deepest = self.deepest.max(at);
         let Some(polygon) = polygons.get(at) else { return true };
@@ -71,7 +71,7 @@ impl Search {
         false
     }
 
-    /// Adds a reading; `None`, and nothing added, if it contradicts what is known.
+    /// Adds an assignment; `None`, and no change, if it contradicts the known fields.
     fn add(&mut self, reading: &[(String, String)]) -> Option<Vec<String>> {
         let mut added = Vec::new();
         for (name, digits) in reading {

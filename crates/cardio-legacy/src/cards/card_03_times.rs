@@ -31,7 +31,7 @@ fn switch(variable: &str, meaning: &str) -> Field {
         .expected("0. or 1., with the decimal point", "punch 0. or 1.")
 }
 
-/// Whether a series has to be there.
+/// Whether a series must be present.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Need {
     Needed,
@@ -39,7 +39,7 @@ pub(crate) enum Need {
     Unused,
 }
 
-/// The report's rules: 4 and 10 or 6 by NPOS, 12 by MREAD, 13 as wanted, 14 to extend a run (NPOS = 1).
+/// The report's rules: 4 and 10, or 6, by NPOS; 12 by MREAD; 13 optional; 14 to extend a run (NPOS = 1).
 pub(crate) fn need(series: u8, mread: Option<f64>, npos: Option<f64>) -> Need {
     match (series, mread, npos) {
         (14, _, Some(0.0)) => Need::Unused,

@@ -6,7 +6,7 @@ use super::field::{Field, INCH, INCH_PER_SECOND, RADIAN, RADIAN_PER_SECOND, fiel
 use super::{JOINTS, Joint, SeriesLayout};
 use crate::rule::Rule;
 
-/// `lengths` stand on the first card behind the rest angles.
+/// `lengths` are on the first card after the rest angles.
 pub(super) fn series(lengths: impl IntoIterator<Item = Field>) -> SeriesLayout {
     let is_place = |n: usize| n <= 3;
     let coordinate = |(n, meaning): (usize, String)| {
@@ -35,7 +35,7 @@ fn rest_angle(joint: &Joint) -> Option<Field> {
     Some(angle)
 }
 
-/// What the 31 coordinates are.
+/// Meanings of the 31 coordinates.
 fn meanings() -> Vec<String> {
     let euler = |segments: [u8; 2]| {
         let triple = |n| ["φ", "θ", "ψ"].map(|angle| format!("Euler angle {angle} of segment {n}"));

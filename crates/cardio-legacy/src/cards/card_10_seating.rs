@@ -4,7 +4,7 @@ use super::SeriesLayout;
 use super::field::{DEGREE, Field, INCH, ONE, field};
 use crate::rule::Rule;
 
-/// A seat by NOPTSP − 1: its name in scenarios, its cushion and back by surface number, whether it is on the left.
+/// A seat by NOPTSP − 1: its name in scenarios, its cushion and back by surface number, and whether it is on the left.
 pub(crate) struct Seat {
     pub name: &'static str,
     pub cushion: u32,

@@ -6,16 +6,17 @@ use crate::rule::Rule;
 
 /// A kind of joint.
 pub(crate) struct Joint {
-    /// With which its fields end: XJN damping, XJS damping at the full stop, AGN and AGS angles where the stop begins and is
-    /// full.
+    /// Suffix of its fields: XJN damping, XJS damping at the full stop, AGN and AGS angles at which the stop begins and
+    /// is full.
     pub letters: &'static str,
     /// Its name in scenarios.
     pub key: &'static str,
-    /// What a reader calls it, with its article.
+    /// Name in text, with its article.
     called: [&'static str; 2],
     /// Stiffness and rest angle of the spring, of the two joints that have one.
     pub spring: Option<[&'static str; 2]>,
-    /// Elbows and knees are hinges with two stops, indexed (1) and (2): which way, and about where it is full.
+    /// Elbows and knees are hinges with two stops, indexed (1) and (2): direction, and approximate angle of the full
+    /// stop.
     hinge: Option<[[&'static str; 2]; 2]>,
 }
 
@@ -37,12 +38,12 @@ pub(crate) const JOINTS: [Joint; 7] = [
 ];
 
 impl Joint {
-    /// The field of its damping before the stops.
+    /// Field of its damping before the stops.
     pub(crate) fn damping(&self) -> String {
         format!("XJN{}", self.letters)
     }
 
-    /// The field of its damping at the full stop.
+    /// Field of its damping at the full stop.
     pub(crate) fn full_damping(&self) -> String {
         format!("XJS{}", self.letters)
     }
@@ -52,13 +53,13 @@ impl Joint {
         self.hinge.is_some()
     }
 
-    /// The fields of its stops, the lower one of a hinge first: angle where it begins, angle where it is full.
+    /// Fields of its stops, the lower one of a hinge first: angle of the beginning, angle of the full stop.
     pub(crate) fn stops(&self) -> Vec<[String; 2]> {
         let sides: &[&str] = if self.is_hinge() { &["(1)", "(2)"] } else { &[""] };
         sides.iter().map(|side| ["AGN", "AGS"].map(|angle| format!("{angle}{}{side}", self.letters))).collect()
     }
 
-    /// Its fields in the order of the cards, springs apart.
+    /// Its fields in the order of the cards, without springs.
     fn fields(&self) -> Vec<Field> {
         let [article, name] = self.called;
         let stops = self.stops();
@@ -120,7 +121,7 @@ fn gravity() -> Field {
         .expected(expected, "punch 386.04")
 }
 
-/// Whether a number is the earth's gravity in some unit.
+/// Whether a number is standard gravity in some unit.
 fn is_a_gravity(g: f64) -> bool {
     g == 1.0 || [9.7..9.9, 31.0..33.5, 380.0..392.0].iter().any(|range| range.contains(&g))
 }

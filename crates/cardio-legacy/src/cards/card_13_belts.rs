@@ -4,25 +4,25 @@ use super::SeriesLayout;
 use super::field::{Field, INCH, ONE, STIFFNESS, field};
 use crate::rule::Rule;
 
-/// Belts by their number on the cards: name, and the sphere round which they loop.
+/// Belts by their number on the cards: name, and the sphere that they loop round.
 pub(crate) const BELTS: [(u32, &str, &str); 2] = [(1, "lap", "pelvis"), (2, "torso", "chest")];
 
 /// Variables of a belt; the index that follows begins with its number.
 const VARIABLES: [&str; 7] = ["P1", "P2", "SK1", "SK2", "DELC", "SLACK", "BLTLEO"];
 
-/// Whether a value of NOPBLT puts a belt to use.
+/// Whether a value of NOPBLT enables a belt.
 pub(crate) fn uses(nopblt: f64, belt: u32) -> bool {
     nopblt == f64::from(belt) || nopblt == 3.0
 }
 
-/// Whether a field belongs to a belt that is not in use.
+/// Whether a field belongs to a disabled belt.
 pub(crate) fn is_of_unused(name: &str, nopblt: f64) -> bool {
     let Some((variable, index)) = name.split_once('(') else { return false };
     let belt = if index.starts_with('1') { 1 } else { 2 };
     VARIABLES.contains(&variable) && !uses(nopblt, belt)
 }
 
-/// The lengths of a run that continues from an exact state, on card 6a.
+/// Lengths of a run that continues from an exact state, on card 6a.
 pub(super) fn initial_lengths() -> [Field; 2] {
     BELTS.map(|(number, name, _)| {
         let unknown = format!("the {name} belt is in use and has no initial length");

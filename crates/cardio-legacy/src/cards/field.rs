@@ -3,13 +3,13 @@
 use crate::punched::Columns;
 use crate::rule::Rule;
 
-/// Where the card number NCARD stands, whatever the format says.
+/// Columns of the card number NCARD, whatever the format gives.
 pub(crate) const NCARD: Columns = Columns::new(71, 80);
 
-/// How a field is punched.
+/// Format of a punched field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// F10.0 or F6.0: a real number, with the point or without.
+    /// F10.0 or F6.0: a real number, with or without the point.
     Real,
     /// I2 or I10: an integer, right-justified.
     Integer,
@@ -17,17 +17,17 @@ pub enum Format {
     Text,
 }
 
-/// Unit of a field, as the report has it.
+/// Unit of a field, as in the report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unit {
-    /// For a reader; empty for a pure number.
+    /// Symbol in text; empty for a dimensionless number.
     pub symbol: &'static str,
-    /// As scenarios write it.
+    /// Name in scenarios.
     pub in_scenarios: &'static str,
 }
 
 impl Unit {
-    /// A number without unit: a switch, a count, a fraction.
+    /// Dimensionless number: a switch, a count, a fraction.
     pub(crate) const ONE: Self = plain("");
 }
 
@@ -57,23 +57,23 @@ const fn unit(symbol: &'static str, in_scenarios: &'static str) -> Unit {
 /// One field of a card.
 #[derive(Debug, Clone)]
 pub struct Field {
-    /// Where it stands.
+    /// Its columns.
     pub columns: Columns,
-    /// How it is punched.
+    /// Format.
     pub format: Format,
-    /// The report's name; on cards that repeat, the name without its index.
+    /// The report's name; on repeated cards, the name without its index.
     pub variable: String,
     /// Its unit.
     pub unit: Unit,
-    /// What it is.
+    /// Meaning.
     pub meaning: String,
-    /// The key of a scenario that says the same number.
+    /// Key of a scenario with the same number.
     pub(crate) key: Option<String>,
-    /// What is reported of its number alone.
+    /// Checks of its number alone.
     pub(crate) bounds: Vec<Bound>,
 }
 
-/// A condition that a number should not meet, and what is said if it does. A number that could not be read meets none.
+/// A condition that reports a problem if a number meets it. An unreadable number meets none.
 #[derive(Debug, Clone)]
 pub(crate) struct Bound {
     pub rule: Rule,
@@ -83,7 +83,7 @@ pub(crate) struct Bound {
     pub remedy: &'static str,
 }
 
-/// A field whose columns and kind the card's format will give.
+/// A field whose columns and kind follow from the card's format.
 pub(super) fn field(variable: impl Into<String>, unit: Unit, meaning: impl Into<String>) -> Field {
     Field {
         columns: Columns::new(1, 1),
@@ -96,7 +96,7 @@ pub(super) fn field(variable: impl Into<String>, unit: Unit, meaning: impl Into<
     }
 }
 
-/// The card number at the end of a series' first card. The I8 of some formats would end in column 78.
+/// Card number at the end of a series' first card. The I8 of some formats would end in column 78.
 pub(super) fn ncard(number: u32, format: &str) -> Field {
     let slip = if format.ends_with("I8") { "; the format's I8 would end in column 78" } else { "" };
     Field { columns: NCARD, format: Format::Integer, ..field("NCARD", ONE, format!("card number {number}{slip}")) }
@@ -107,14 +107,14 @@ impl Field {
         Self { key: Some(key.into()), ..self }
     }
 
-    /// Adds a bound; [`Field::expected`] says the rest.
+    /// Adds a check; [`Field::expected`] completes it.
     pub(super) fn wrong_if(mut self, rule: Rule, violated: fn(f64) -> bool, message: impl Into<String>) -> Self {
         let message = message.into();
         self.bounds.push(Bound { rule, violated, message, expected: String::new(), remedy: "" });
         self
     }
 
-    /// What the last bound expects, and how to mend a number that violates it.
+    /// Expectation of the last check, and the remedy.
     pub(super) fn expected(mut self, expected: impl Into<String>, remedy: &'static str) -> Self {
         if let Some(bound) = self.bounds.last_mut() {
             (bound.expected, bound.remedy) = (expected.into(), remedy);
@@ -130,15 +130,15 @@ impl Field {
         self.wrong_if(Rule::Impossible, |v| v < 0.0, what).expected("0 or more", "look for a wrong sign")
     }
 
-    /// An angle due in radians that must not look like degrees.
+    /// An angle in radians that must not look like degrees.
     pub(super) fn radians(self) -> Self {
         self.wrong_if(Rule::LooksLikeOtherUnit, |v| v.abs() > std::f64::consts::TAU, "more than a full turn")
             .expected("an angle in radians", "divide by 57.2958 if it is in degrees")
     }
 }
 
-/// Kind and columns of the fields of a FORTRAN format: `I2,8X,6F10.0` is an integer in columns 1–2, eight columns that are
-/// blank, and six reals from column 11. Text of several words is one field.
+/// Kinds and columns of the fields of a FORTRAN format: `I2,8X,6F10.0` is an integer in columns 1–2, eight blank
+/// columns, and six reals from column 11. Text of several words is one field.
 pub(super) fn places(format: &str) -> Vec<(Format, Columns)> {
     let mut places = Vec::new();
     let mut next = 1;

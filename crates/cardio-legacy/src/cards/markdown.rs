@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{CardId, CardLayout, Repeat, SERIES};
 
-/// All tables as Markdown, one section a series, one row a field.
+/// All tables as Markdown: one section per series, one row per field.
 pub fn tables_as_markdown() -> String {
     let mut text = String::new();
     for series in SERIES.iter() {

@@ -58,28 +58,28 @@ pub static SERIES: LazyLock<Vec<SeriesLayout>> = LazyLock::new(|| {
     series.map(SeriesLayout::lettered).into()
 });
 
-/// How often a card of a series comes.
+/// Number of cards of one kind in a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Repeat {
     /// Once.
     Once,
-    /// Once for each number from 1 to `count`, in any order; its first field holds the number.
+    /// Once for each index from 1 to `count`, in any order; its first field contains the index.
     Each {
         /// Largest number.
         count: u32,
     },
-    /// As often as the first card of the series says.
+    /// As often as the first card of the series gives.
     Counted,
 }
 
 /// One card of a series.
 #[derive(Debug)]
 pub struct CardLayout {
-    /// The report's letter, where a series has several cards.
+    /// The report's letter, in a series of several cards.
     pub letter: Option<char>,
-    /// The format as the report prints it.
+    /// Format as printed in the report.
     pub format: &'static str,
-    /// How often it comes.
+    /// Number of such cards.
     pub repeat: Repeat,
     /// Its fields from left to right.
     pub fields: Vec<Field>,
@@ -90,26 +90,26 @@ pub struct CardLayout {
 pub struct SeriesLayout {
     /// Its number in the report, 1–16.
     pub number: u8,
-    /// The card number NCARD that its first card carries, where it has one.
+    /// Card number NCARD of its first card, if it has one.
     pub ncard: Option<u32>,
-    /// What it is about.
+    /// Subject.
     pub title: &'static str,
-    /// Its cards, the first one first.
+    /// Its cards, in order.
     pub cards: Vec<CardLayout>,
 }
 
-/// Name of a card: series, letter and, on cards that repeat, a number.
+/// Name of a card: series, letter and, for repeated cards, an index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CardId {
     /// The series, 1–16; 17 is the final card.
     pub series: u8,
     /// The letter of the report.
     pub letter: Option<char>,
-    /// Segment, surface, station or pair on cards that repeat.
+    /// Segment, surface, station or pair of a repeated card.
     pub number: Option<u32>,
 }
 
-/// The series number by which the final card FINI goes in a [`CardId`].
+/// Series number of the final card FINI in a [`CardId`].
 pub(crate) const FINAL_CARD: u8 = 17;
 
 impl CardId {
@@ -118,7 +118,7 @@ impl CardId {
         Self { series: series.number, letter: series.cards.first().and_then(|c| c.letter), number: None }
     }
 
-    /// The card's entry in the table.
+    /// Layout of the card.
     pub(crate) fn layout(self) -> Option<&'static CardLayout> {
         series(self.series)?.cards.iter().find(|card| card.letter == self.letter)
     }
@@ -151,12 +151,12 @@ pub fn series(number: u8) -> Option<&'static SeriesLayout> {
     SERIES.iter().find(|s| s.number == number)
 }
 
-/// The series whose first card carries this card number.
+/// Series whose first card has this card number.
 pub(crate) fn series_with_ncard(ncard: u32) -> Option<&'static SeriesLayout> {
     SERIES.iter().find(|s| s.ncard == Some(ncard))
 }
 
-/// The field of a name with its index: `TF`, `XLE(3)`, `Q0(17)`, `CALT(5)`.
+/// Field with a name and its index: `TF`, `XLE(3)`, `Q0(17)`, `CALT(5)`.
 pub(crate) fn field_named(name: &str) -> Option<&'static Field> {
     let base = name.split_once('(').map_or(name, |(base, _)| base);
     let mut fields = SERIES.iter().flat_map(|series| &series.cards).flat_map(|card| &card.fields);
@@ -168,7 +168,7 @@ impl SeriesLayout {
         Self { number, ncard: None, title, cards: Vec::new() }
     }
 
-    /// Adds the first card, which carries the card number.
+    /// Adds the first card, which contains the card number.
     fn first(mut self, ncard: u32, format: &'static str, fields: impl IntoIterator<Item = Field>) -> Self {
         self.ncard = Some(ncard);
         let fields: Vec<Field> = fields.into_iter().chain([field::ncard(ncard, format)]).collect();
@@ -182,12 +182,12 @@ impl SeriesLayout {
         fields.chunks(on_a_card).fold(self, |series, fields| series.with(Repeat::Once, format, fields.to_vec()))
     }
 
-    /// Adds the card that comes once for each number up to `count`.
+    /// Adds the card that is present once for each index up to `count`.
     fn each(self, count: u32, format: &'static str, fields: impl IntoIterator<Item = Field>) -> Self {
         self.with(Repeat::Each { count }, format, fields.into_iter().collect())
     }
 
-    /// Adds the card that comes as often as the first card says.
+    /// Adds the card whose number the first card gives.
     fn counted(self, format: &'static str, fields: impl IntoIterator<Item = Field>) -> Self {
         self.with(Repeat::Counted, format, fields.into_iter().collect())
     }
@@ -202,7 +202,7 @@ impl SeriesLayout {
         self
     }
 
-    /// The cards of a series are a, b, c, …; an only card has no letter.
+    /// Letters of the cards of a series: a, b, c, …; an only card has none.
     fn lettered(mut self) -> Self {
         if self.cards.len() > 1 {
             self.cards.iter_mut().zip('a'..).for_each(|(card, letter)| card.letter = Some(letter));

@@ -7,7 +7,7 @@ use super::Check;
 use crate::deck::DeckCard;
 use crate::rule::Rule;
 
-/// Speeds of vehicle and occupant may differ by this much before it is called a contradiction.
+/// Relative difference of the speeds of vehicle and occupant above which they contradict.
 const SPEED_TOLERANCE: f64 = 0.1;
 const FASTEST_IN_PER_S: f64 = 3000.0;
 
@@ -42,7 +42,7 @@ fn check_step(c: &mut Check<'_>, station: usize, before: &[f64], after: &[f64]) 
         .expected("positions in inches, times in seconds", "look for the decimal point");
 }
 
-/// How far the vehicle moves between two stations, in.
+/// Displacement of the vehicle between two stations, in.
 fn way(before: &[f64], after: &[f64]) -> f64 {
     (1..=3).map(|axis| (after[axis] - before[axis]).powi(2)).sum::<f64>().sqrt()
 }
@@ -66,7 +66,8 @@ fn check_cover(c: &mut Check<'_>, stations: &[Vec<f64>]) {
     }
 }
 
-/// The occupant usually begins with the vehicle's velocity; a factor of 12 or 17.6 between their speeds is a unit.
+/// The occupant usually starts with the vehicle's velocity; a factor of 12 or 17.6 between their speeds is an error of
+/// unit.
 fn check_speed(c: &mut Check<'_>, stations: &[Vec<f64>]) {
     let Some(vehicle) = velocity_at(stations, c.value("T1")).filter(|_| c.value("NPOS") == 0.0) else { return };
     let names = ["VXVC", "VYVC", "VZVC"];
@@ -90,8 +91,8 @@ fn check_speed(c: &mut Check<'_>, stations: &[Vec<f64>]) {
         .expected("the initial velocity in vehicle axes, in in/s", remedy);
 }
 
-/// Velocity of the vehicle along its own axes in the interval that begins at `start_s` or holds it, in/s; none if the
-/// stations make no path or do not cover that time.
+/// Velocity of the vehicle along its own axes in the interval that contains `start_s`, in/s; none if the stations are
+/// not a path or do not cover that time.
 fn velocity_at(stations: &[Vec<f64>], start_s: f64) -> Option<Vector3<f64>> {
     let station = |n: &Vec<f64>| Station::new(n[0], [n[1], n[2], n[3]], [n[4], n[5], n[6]].map(f64::to_radians));
     let table = TablePath::new(stations.iter().map(station).collect(), Interpolation::Linear, AfterEnd::Error).ok()?;

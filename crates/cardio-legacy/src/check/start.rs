@@ -37,7 +37,7 @@ fn check_heels(c: &mut Check<'_>) {
     }
 }
 
-/// Each pair of series 14 once.
+/// Checks that each pair of series 14 is listed once.
 fn check_pairs(c: &mut Check<'_>) {
     let pairs: Vec<_> = pairs(c).collect();
     for (at, (card, sphere, surface)) in pairs.iter().enumerate() {
@@ -49,13 +49,13 @@ fn check_pairs(c: &mut Check<'_>) {
     }
 }
 
-/// The pairs of series 14: number of the card, sphere, surface.
+/// Pairs of series 14: index of the card, sphere, surface.
 fn pairs(c: &Check<'_>) -> impl Iterator<Item = (u32, f64, f64)> {
     let cards = c.deck.cards_of(14, 'b');
     cards.filter_map(|c| Some((c.id.number?, c.numbers.first()?.value, c.numbers.get(1)?.value)))
 }
 
-/// A pair whose surface is left out of the scenario changes nothing: the sphere cannot touch it anyway.
+/// Pairs whose surface is omitted from the scenario have no effect: the sphere cannot touch it anyway.
 fn check_surfaces_of_pairs(c: &mut Check<'_>) {
     let Ok(layout) = CompartmentLayout::reconstruction() else { return };
     let missing = layout.left_out(c.deck);

@@ -25,8 +25,8 @@ pub(super) fn write(w: &mut Writer<'_>) {
     }
 }
 
-/// The names under which the scenario says `fields` of numbered things, and their numbers: left and right, which stand side
-/// by side, are one entry where they are alike.
+/// Names in the scenario of `fields` of numbered things, and their indices: left and right, which are adjacent, are one
+/// entry if they are equal.
 fn entries(w: &mut Writer<'_>, names: &[&str], fields: &[&str]) -> Vec<(String, Vec<u32>)> {
     let mut entries: Vec<(String, Vec<u32>)> = Vec::new();
     for (number, name) in (1..).zip(names) {
@@ -43,7 +43,7 @@ fn entries(w: &mut Writer<'_>, names: &[&str], fields: &[&str]) -> Vec<(String, 
     entries
 }
 
-/// Whether the fields of two numbers are the same.
+/// Whether the fields of two indices are equal.
 fn alike(w: &mut Writer<'_>, fields: &[&str], numbers: [u32; 2]) -> bool {
     fields.iter().all(|field| {
         let [one, two] = numbers.map(|n| w.value(&format!("{field}({n})")));

@@ -56,7 +56,7 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     );
 }
 
-/// The surfaces that a scenario can have, by number.
+/// Surfaces that a scenario can have, by number.
 fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
     let left_out = layout.left_out(w.deck);
     let mut written = Vec::new();
@@ -73,8 +73,8 @@ fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
     written
 }
 
-/// A passed pair of series 14 by the scenario's names; none if the scenario leaves the surface out, or if the occupant is
-/// seated (NPOS = 0) and there is nothing to extend.
+/// A passed pair of series 14 by the scenario's names; none if the scenario omits the surface, or if the occupant is
+/// seated (NPOS = 0) and no run is extended.
 pub(super) fn passed_pair(
     w: &mut Writer<'_>,
     layout: &CompartmentLayout,
@@ -87,7 +87,7 @@ pub(super) fn passed_pair(
     (w.value("NPOS") == 1.0 && !left_out).then_some((sphere, name))
 }
 
-/// The numbers of surfaces that the scenario leaves out, and their passed pairs, are kept for the way back.
+/// Keeps the numbers of omitted surfaces, and their passed pairs, for the conversion back.
 pub(super) fn keep_left_out(w: &mut Writer<'_>, layout: &CompartmentLayout, kept: &mut Kept) {
     let left_out = layout.left_out(w.deck);
     keep_pairs(w, layout, &left_out, kept);
@@ -105,7 +105,7 @@ pub(super) fn keep_left_out(w: &mut Writer<'_>, layout: &CompartmentLayout, kept
     }
 }
 
-/// Keeps the passed pairs that a scenario cannot name, and reports those whose surface it leaves out.
+/// Keeps the passed pairs that a scenario cannot name, and reports those whose surface it omits.
 fn keep_pairs(w: &mut Writer<'_>, layout: &CompartmentLayout, left_out: &[LeftOut], kept: &mut Kept) {
     for (at, pair) in w.deck.passed_pairs().into_iter().enumerate() {
         if passed_pair(w, layout, pair).is_some() {
@@ -122,7 +122,7 @@ fn keep_pairs(w: &mut Writer<'_>, layout: &CompartmentLayout, left_out: &[LeftOu
     }
 }
 
-/// Surfaces with the same numbers share a material, named after the first.
+/// Surfaces with equal numbers share a material, named after the first.
 fn materials(w: &mut Writer<'_>, surfaces: &[Written]) -> Vec<(String, Vec<u32>)> {
     let mut groups: Vec<(Vec<u64>, String, Vec<u32>)> = Vec::new();
     for surface in surfaces {
@@ -135,8 +135,8 @@ fn materials(w: &mut Writer<'_>, surfaces: &[Written]) -> Vec<(String, Vec<u32>)
     groups.into_iter().map(|(_, name, members)| (name, members)).collect()
 }
 
-/// The two ends of a face that reaches from left to right at two points, ordered so that its corners, near end first and
-/// left before right, run counter-clockwise seen from the open side.
+/// The two ends of a face that spans the width at two points, ordered such that its corners, near end first and left
+/// before right, are counter-clockwise seen from the open side.
 fn strip(face: &Face) -> Option<[Corner; 2]> {
     let corners = &face.corners;
     let pair = |a: &Corner, b: &Corner| {
@@ -186,7 +186,7 @@ fn disc(w: &mut Writer<'_>, layout: &CompartmentLayout) -> String {
     format!("disc = {{ centre = [{x}, {y}, {z}], diameter = {diameter}, tilt = {} }}", wheel.tilt_deg)
 }
 
-/// A difference of card numbers without the noise of binary fractions.
+/// Difference of card numbers, rounded to their decimals.
 fn decimal(value: f64) -> String {
     let text = format!("{value:.9}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

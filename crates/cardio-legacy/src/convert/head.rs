@@ -43,7 +43,7 @@ fn times(w: &mut Writer<'_>) {
     }
 }
 
-/// Switches whose meaning today is another one.
+/// Switches with another meaning today.
 fn switches(w: &mut Writer<'_>) {
     let on_disk = w.value("NDISK") == 0.0;
     let plots = match w.deck.plot() {

@@ -17,7 +17,7 @@ pub(super) fn write(w: &mut Writer<'_>) {
     }
 }
 
-/// A stop whose two angles are blank or zero is none.
+/// A stop with two blank or zero angles does not exist.
 fn stop(w: &mut Writer<'_>, key: &str, [begin, end, full]: [&str; 3]) {
     if w.value(begin) == 0.0 && w.value(end) == 0.0 {
         w.report.assumptions.push(format!("{begin} and {end} are both zero: no stop ({key}), {full} is not used"));

@@ -24,16 +24,16 @@ use crate::compartment::CompartmentLayout;
 use crate::deck::Deck;
 use writer::Writer;
 
-/// What a conversion needs besides the deck.
+/// Options of a conversion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConvertOptions {
     /// Name of the deck, for the comment at the head of the scenario.
     pub deck_name: String,
-    /// The vehicle's path of a deck with MREAD ≠ 0.
+    /// Vehicle path for a deck with MREAD ≠ 0.
     pub path: Option<PathSource>,
-    /// Which points bound which surface, and where the wheel stands; `None` is the crate's reconstruction.
+    /// Points that bound the surfaces, and position of the wheel; `None` for the built-in reconstruction.
     pub compartment: Option<CompartmentLayout>,
-    /// How a body that the deck seats (NPOS = 0) begins.
+    /// Initial position of a body seated by the deck (NPOS = 0).
     pub seating: DeckSeating,
 }
 
@@ -43,13 +43,14 @@ impl Default for ConvertOptions {
     }
 }
 
-/// How a body that a deck seats begins. The report says that the force–deformation properties of the seat place it, and no more.
+/// Initial position of a body seated by a deck. The report states only that the force–deformation properties of the
+/// seat determine it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DeckSeating {
-    /// In balance: the body as one piece, in the cards' posture, lies where all that it touches carries its weight.
+    /// Balanced: the rigid body, in the cards' posture, is placed such that all contacts carry its weight.
     #[default]
     Balanced,
-    /// By the pelvis sphere alone, exactly in the cards' posture: what thighs, chest and feet press besides is left over.
+    /// By the pelvis sphere alone, exactly in the cards' posture: forces of thighs, chest and feet remain unbalanced.
     Pelvis,
 }
 
@@ -58,20 +59,20 @@ pub enum DeckSeating {
 pub struct Conversion {
     /// The scenario, TOML.
     pub toml: String,
-    /// What was assumed, left away, counted.
+    /// Assumptions, omissions and counts.
     pub report: Report,
 }
 
-/// Why a deck has no scenario.
+/// Reason why a deck cannot be converted to a scenario.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ConversionError {
-    /// MREAD ≠ 0, and no path was given.
+    /// MREAD ≠ 0 without a path.
     #[error(
         "the deck takes {stations} stations of the vehicle's path from disk (MREAD on card 3), expected that path; give it \
          with --path file, as CSV or as cards of series 12"
     )]
     PathNeeded {
-        /// Stations that MREAD asks for.
+        /// Number of stations by MREAD.
         stations: f64,
     },
     /// The path file cannot be used.
@@ -80,17 +81,17 @@ pub enum ConversionError {
     /// The compartment's data file cannot be used.
     #[error("the compartment's data file cannot be used: {0}")]
     Compartment(String),
-    /// A field that the conversion needs is not in the deck.
+    /// Missing field that the conversion needs.
     #[error("the deck has no field {0}, which the conversion needs")]
     MissingField(String),
-    /// The scenario that came out is refused by the scenario format: the deck's numbers contradict one another in a way that
-    /// only shows there.
+    /// The resulting scenario is invalid: the deck's numbers contradict each other in a way that only the scenario
+    /// check finds.
     #[error("the scenario made from the deck is refused:\n{0}")]
     Refused(Box<ScenarioDiagnostics>),
 }
 
 impl Deck {
-    /// The scenario of this deck.
+    /// Scenario of this deck.
     ///
     /// # Errors
     /// A path that is missing or unreadable, a scenario that the format refuses.
@@ -118,7 +119,7 @@ impl Deck {
     }
 }
 
-/// Reads the text as the program will: nothing that it refuses is handed out.
+/// Reads the text as the program will, so that no invalid scenario is returned.
 fn check(toml: &str, beside: Option<&str>) -> Result<Loaded, ConversionError> {
     let resolver = |name: &str| match beside {
         Some(text) => Ok(text.as_bytes().to_vec()),
@@ -130,7 +131,7 @@ fn check(toml: &str, beside: Option<&str>) -> Result<Loaded, ConversionError> {
     Ok(loaded)
 }
 
-/// The pairs of series 14 that do not overlap at the start, as text; they show only where the body is placed.
+/// Pairs of series 14 that do not overlap at the start, as text; known only after placing the body.
 fn pairs_apart(loaded: &Loaded) -> Option<String> {
     let (_, warnings) = loaded.model().ok()?;
     let apart = warnings.iter().find(|warning| warning.problem.path == "initial_state.passed")?;

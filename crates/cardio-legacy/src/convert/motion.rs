@@ -27,7 +27,7 @@ fn exact_state(w: &mut Writer<'_>) {
     }
 }
 
-/// The pairs of series 14, a line for each sphere.
+/// Pairs of series 14, one line per sphere.
 fn passed(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     if !w.deck.has_series(14) {
         return;
@@ -45,7 +45,7 @@ fn passed(w: &mut Writer<'_>, layout: &CompartmentLayout) {
 const ORDER: &str =
     "                          # T1; φ θ ψ of segments 1, 2, 3, 4, 5, 6; α₇ α₈; φ θ ψ of 9, 10; α₁₁ α₁₂";
 
-/// T1, six triples, two angles, two triples, two angles: a line each.
+/// T1, six triples, two angles, two triples, two angles: one line each.
 fn rows_of_coordinates(mut numbers: &[String]) -> String {
     let mut rows = String::new();
     for length in [3, 3, 3, 3, 3, 3, 3, 2, 3, 3, 2] {
@@ -84,7 +84,7 @@ fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout, how: DeckSeating) {
     w.report.assumptions.push(placed(how).into());
 }
 
-/// What places a seated body.
+/// Value of the key for the placing of a seated body.
 fn placed(how: DeckSeating) -> &'static str {
     match how {
         DeckSeating::Balanced => {

@@ -7,32 +7,32 @@ use crate::deck::{Deck, DeckCard};
 use crate::fortran::read_real;
 use crate::punched::PunchedCard;
 
-/// Where the path of a deck with MREAD ≠ 0 comes from. The vehicle program's own layout on disk is not documented.
+/// Source of the path for a deck with MREAD ≠ 0. The vehicle program's own file format is undocumented.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PathSource {
-    /// A CSV file whose first line names columns and units: `t[s],x[in],y[in],z[in],roll[deg],pitch[deg],yaw[deg]`, in any
-    /// order. The scenario refers to the file by its name.
+    /// CSV file whose first line gives columns and units: `t[s],x[in],y[in],z[in],roll[deg],pitch[deg],yaw[deg]`, in
+    /// any order. The scenario refers to the file by its name.
     Csv {
-        /// Name of the file as the scenario shall call it.
+        /// Name of the file in the scenario.
         name: String,
         /// Its text.
         text: String,
     },
-    /// A file of plain numbers, separated by commas or blanks, with its columns and units declared beside it.
+    /// File of plain numbers, separated by commas or blanks, with its columns and units given separately.
     Columns {
         /// Name and unit of each column, such as `t[ms]`.
         columns: Vec<String>,
         /// Its text.
         text: String,
     },
-    /// Cards of series 12b, one a station.
+    /// Cards of series 12b, one per station.
     Cards {
         /// Their text.
         text: String,
     },
 }
 
-/// A path that is ready to be written.
+/// A path ready for output.
 pub(super) enum Path {
     /// In the scenario itself.
     Rows { columns: Vec<String>, rows: Vec<Vec<String>>, from: &'static str },
@@ -68,7 +68,7 @@ pub(super) fn read(deck: &Deck, source: Option<&PathSource>) -> Result<Path, Con
     Ok(Path::Rows { columns, rows: first(rows, wanted)?, from })
 }
 
-/// The fields of a station on cards of series 12.
+/// Fields of a station on cards of series 12.
 fn station_fields() -> impl Iterator<Item = &'static Field> {
     series(12).and_then(|series| series.cards.get(1)).into_iter().flat_map(|card| &card.fields)
 }
@@ -170,7 +170,7 @@ impl Path {
         );
     }
 
-    /// The text of the file beside the scenario.
+    /// Text of the file beside the scenario.
     pub(super) fn beside(&self) -> Option<&str> {
         match self {
             Self::Beside { text, .. } => Some(text),

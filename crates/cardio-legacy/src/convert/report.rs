@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-/// The record of one conversion.
+/// Record of one conversion.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
-    /// Decisions that no card makes: the wheel's place, the reconstructed surfaces, ….
+    /// Choices that no card determines: the wheel's position, the reconstructed surfaces, ….
     pub assumptions: Vec<String>,
-    /// Cards and fields that the scenario does not use, or has no place for.
+    /// Cards and fields that the scenario does not use or cannot hold.
     pub ignored: Vec<String>,
-    /// Blank fields that were taken as zero.
+    /// Blank fields read as zero.
     pub blanks: Vec<String>,
 }
 

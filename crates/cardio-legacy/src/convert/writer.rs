@@ -6,15 +6,15 @@ use super::{Conversion, ConversionError, Report};
 use crate::cards::field_named;
 use crate::deck::{Deck, Number};
 
-/// Column of the comments behind short lines.
+/// Column of the comments after short lines.
 const COMMENT_COLUMN: usize = 40;
 
-/// A scenario on its way.
+/// A scenario being written.
 pub(super) struct Writer<'a> {
     pub deck: &'a Deck,
     pub report: Report,
     text: String,
-    /// The table under which lines are written.
+    /// Table of the following lines.
     table: String,
     missing: Option<String>,
 }
@@ -25,7 +25,7 @@ impl<'a> Writer<'a> {
         Self { deck, report, text: String::new(), table: String::new(), missing: None }
     }
 
-    /// The text and the report; an error if the deck lacked a field that was asked for.
+    /// Text and report; an error if the deck lacked a requested field.
     ///
     /// # Errors
     /// A text that is no scenario.
@@ -44,12 +44,12 @@ impl<'a> Writer<'a> {
         number
     }
 
-    /// The value of a field, in the card's unit; zero where it is absent, which [`Writer::finish`] reports.
+    /// Value of a field, in the card's unit; zero if absent, which [`Writer::finish`] reports.
     pub fn value(&mut self, name: &str) -> f64 {
         self.number(name).map_or(0.0, |n| n.value)
     }
 
-    /// The digits of a field as a bare number.
+    /// Digits of a field as a number without unit.
     pub fn bare(&mut self, name: &str) -> String {
         self.number(name).map_or_else(|| "0".to_owned(), |n| n.digits.clone())
     }
@@ -63,12 +63,12 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The line of a field that has a key of its own: `end = "0.2 s"  # TF`.
+    /// Line of a field with its own key: `end = "0.2 s"  # TF`.
     pub fn field(&mut self, name: &str) {
         self.field_with(name, name);
     }
 
-    /// The line of a field that has a key of its own, with another comment.
+    /// Line of a field with its own key, with another comment.
     pub fn field_with(&mut self, name: &str, comment: &str) {
         let key = field_named(name).and_then(|field| field.key.as_deref()).unwrap_or_default();
         let in_table = key.strip_prefix(&self.table).and_then(|key| key.strip_prefix('.')).unwrap_or(key);
@@ -86,7 +86,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A table's head, after an empty line and a comment.
+    /// Table header, after an empty line and a comment.
     pub fn table(&mut self, name: &str, comment: &str) {
         self.blank_line();
         self.comment(comment);
@@ -105,7 +105,7 @@ impl<'a> Writer<'a> {
         let _ = writeln!(self.text, "{line:COMMENT_COLUMN$} # {comment}");
     }
 
-    /// Text as it is.
+    /// Text, unchanged.
     pub fn raw(&mut self, text: &str) {
         self.text.push_str(text);
     }

@@ -11,16 +11,16 @@ use occupant_scenario::{Diagnostics, Loaded};
 
 use crate::{CompartmentLayout, passed_pairs};
 
-/// A run as its file holds it.
+/// A run from its file.
 #[derive(Clone, Debug)]
 pub struct Recorded {
-    /// What the run was: its program, scenario, changes.
+    /// Origin of the run: its program, scenario, changes.
     pub run: BTreeMap<String, String>,
-    /// What it came to; none if it was cut off.
+    /// Results; none if it was interrupted.
     pub result: Option<BTreeMap<String, String>>,
-    /// How it ended, and why it did not end well.
+    /// End of the run, and the reason for a failure.
     pub ending: (RunStatus, Option<String>),
-    /// Texts that travel with it: name and content.
+    /// Attached texts: name and content.
     pub attachments: BTreeMap<String, Vec<u8>>,
     /// Its outputs.
     pub checkpoints: Vec<Checkpoint>,
@@ -57,12 +57,12 @@ impl Case {
         }
     }
 
-    /// A fact about the run from its record; `-` where it has none.
+    /// Entry of the run's record; `-` without one.
     pub(crate) fn known(&self, key: &str) -> &str {
         self.file.run.get(key).map_or("-", String::as_str)
     }
 
-    /// Whether its body is the report's, for whose coordinates cards have room.
+    /// Whether its body is the report's, whose coordinates fit on cards.
     pub(crate) fn is_of_report(&self) -> bool {
         *self.model.body().tree == TTI12
     }
@@ -72,7 +72,7 @@ impl Case {
         self.model.body().spheres.get(index).map(|s| s.name.clone()).unwrap_or_default()
     }
 
-    /// The two lines on top of each page: the title cards, or the title and where the run comes from.
+    /// The two lines at the top of each page: the title cards, or the title and the origin of the run.
     pub(crate) fn titles(&self) -> [String; 2] {
         let notes = self.loaded.scenario.notes.as_deref().unwrap_or_default();
         let second = notes.lines().find_map(|line| line.trim().strip_prefix("TITLE 2 = "));
@@ -101,7 +101,7 @@ impl Case {
     }
 }
 
-/// The report's surface numbers, if every surface bears a name of the cards' compartment.
+/// The report's surface numbers, if every surface has a name of the cards' compartment.
 fn report_numbers(model: &Model) -> Option<Vec<usize>> {
     let layout = CompartmentLayout::reconstruction().ok()?;
     let number = |name: &str| layout.number_of(name).and_then(|n| usize::try_from(n).ok());

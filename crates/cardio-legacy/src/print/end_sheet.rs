@@ -21,7 +21,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, caveats: &[Cav
     pages.block(&["END OF PRINTOUT".to_owned()], 0);
 }
 
-/// How far the run got, loudly where it is not complete.
+/// End of the run, with emphasis if it is incomplete.
 fn ending(pages: &mut Pages, case: &Case) {
     let end_s = case.model.setup().time.end_s;
     let outputs = &case.file.checkpoints;
@@ -91,7 +91,7 @@ fn spine_rest_rad(case: &Case) -> [f64; 2] {
     })
 }
 
-/// A list of pairs, two to a line.
+/// A list of pairs, two per line.
 pub(crate) fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usize)]) {
     let mut table = Table::new(title, "J|<SPHERE|<K  SURFACE|J|<SPHERE|<K  SURFACE");
     for row in passed.chunks(2) {

@@ -8,7 +8,7 @@ use occupant_units::unit::Unit::{Joule, Metre, MetrePerSecond, Newton};
 use super::unit::degree;
 use super::{Case, ELEMENTS, Pages, Table, Units, headings};
 
-/// The spheres whose point of application the report prints.
+/// Spheres whose point of application the report prints.
 const APPLICATION: [&str; 3] = ["head", "chest", "pelvis"];
 
 /// Writes the loads' tables.
@@ -23,7 +23,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, sample: &Sampl
     energy(pages, units, sample);
 }
 
-/// Every sphere's force; one line for each surface hit.
+/// Force on every sphere, with one line per surface.
 fn forces(case: &Case, units: Units, s: &Sample<'_>) -> Table {
     let (f, l, v) = (units.of(Newton), units.of(Metre), units.of(MetrePerSecond));
     let mut table = Table::new(
@@ -75,7 +75,7 @@ fn application_points(units: Units, s: &Sample<'_>) -> Table {
     table
 }
 
-/// What every element of the kind called `of` does, where there are any.
+/// Actions of all elements of the kind `of`, if there are any.
 fn named(pages: &mut Pages, units: Units, s: &Sample<'_>, of: &str, title: &str) {
     for one in s.model.named(of) {
         let all = matching(s.model, &format!("{of}.{}.*", one.name));
@@ -101,7 +101,7 @@ fn joints(pages: &mut Pages, s: &Sample<'_>) {
     table.write(pages);
 }
 
-/// A joint's name in the room of a number: `R SHOULDER`.
+/// A joint's name within the width of a number: `R SHOULDER`.
 fn joint_head(name: &str) -> String {
     let name = name.to_uppercase().replace('_', " ");
     name.replace("RIGHT ", "R ").replace("LEFT ", "L ")
@@ -118,7 +118,7 @@ fn energy(pages: &mut Pages, units: Units, s: &Sample<'_>) {
     table.write(pages);
 }
 
-/// An energy's name in the room of a number: `LOST CONT`.
+/// An energy's name within the width of a number: `LOST CONT`.
 fn energy_head(name: &str) -> String {
     let name = name.to_uppercase().replace('_', " ");
     let short = [("KINETIC RELATIVE", "KIN REL VEH"), ("CONTACTS", "CONT"), ("FRICTION", "FRICT"), ("VEHICLE", "VEH")];

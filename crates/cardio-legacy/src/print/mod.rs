@@ -25,17 +25,17 @@ use occupant_core::run::simulate::replay;
 use page::{COLUMNS, Pages};
 use table::Table;
 
-/// What a kind of force elements adds to the printout, beside contact surfaces and joints.
+/// Sections of the printout for a kind of force elements, besides contact surfaces and joints.
 pub(crate) struct Element {
     /// Its name in headings.
     heading: &'static str,
-    /// What was read.
+    /// Section of the input.
     input: fn(&mut Pages, &Case, Units),
-    /// What was computed of it before the first step.
+    /// Section of values at the start.
     start: fn(&mut Pages, &Case, Units),
-    /// What it does at an output.
+    /// Section of an output.
     output: fn(&mut Pages, Units, &Sample<'_>),
-    /// What an extension needs.
+    /// Section of values for an extension.
     end: fn(&mut Pages, &Case, Units),
 }
 
@@ -70,7 +70,7 @@ pub fn printout(case: &Case, units: Units, every_s: Option<f64>) -> Result<Strin
     Ok(pages.text())
 }
 
-/// That a print interval is no multiple of the recorded one, so that the printed times are not evenly spaced.
+/// Message for a print interval that is not a multiple of the recorded one, so that printed times are unevenly spaced.
 pub fn uneven(case: &Case, every_s: f64) -> Option<String> {
     let output_s = case.model.setup().time.output_s;
     let outputs = every_s / output_s;
@@ -82,7 +82,7 @@ pub fn uneven(case: &Case, every_s: f64) -> Option<String> {
     })
 }
 
-/// What is to know of the figures of the run.
+/// Caveats on the results of the run.
 fn caveats(case: &Case) -> Result<Vec<Caveat>, String> {
     let Some(last) = case.file.checkpoints.last() else {
         return Ok(Vec::new());
@@ -97,7 +97,7 @@ fn caveats(case: &Case) -> Result<Vec<Caveat>, String> {
     Ok(summarizer.summary(None).map_or_else(Vec::new, |summary| summary.ended(status, reason).caveats))
 }
 
-/// Numbers of the outputs to print: the first at or after each print time, and the last.
+/// Indices of the outputs to print: the first at or after each print time, and the last.
 fn chosen(times_s: &[f64], every_s: Option<f64>, output_s: f64) -> Result<Vec<usize>, String> {
     let Some(every_s) = every_s else {
         return Ok((0..times_s.len()).collect());

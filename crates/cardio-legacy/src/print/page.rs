@@ -25,7 +25,7 @@ pub(crate) struct Pages {
 }
 
 impl Pages {
-    /// No page yet; `titles` stand on top of each.
+    /// No page yet; `titles` are at the top of each.
     pub(crate) fn new(titles: [String; 2]) -> Self {
         Pages { titles, section: String::new(), text: String::new(), page: 0, line: 0 }
     }
@@ -36,18 +36,18 @@ impl Pages {
         self.text
     }
 
-    /// Begins a page; `section` stands below the titles of it and of the pages that continue it.
+    /// Starts a page; `section` is below the titles of it and of its continuations.
     pub(crate) fn begin(&mut self, section: &str) {
         self.section = section.to_owned();
         self.turn();
     }
 
-    /// A fact, by its name in the margin.
+    /// A value, with its name in the margin.
     pub(crate) fn fact(&mut self, name: &str, words: impl Display) {
         self.say(&format!("{name:<MARGIN$}{words}"));
     }
 
-    /// A line of words, folded where it is too long.
+    /// A line of text, folded if too long.
     pub(crate) fn say(&mut self, words: &str) {
         for line in folded(words) {
             if self.line >= LINES {
@@ -57,8 +57,8 @@ impl Pages {
         }
     }
 
-    /// Lines that belong together, after a blank: on the next page if they do not fit on this one. Lines that fit on no page
-    /// are continued, with the first `head` of them repeated.
+    /// Lines that belong together, after a blank: on the next page if they do not fit on this one. Blocks longer than a
+    /// page are continued, with the first `head` lines repeated.
     pub(crate) fn block(&mut self, lines: &[String], head: usize) {
         if self.line > HEAD {
             if self.line + 1 + lines.len() <= LINES || self.line + head + 3 < LINES && lines.len() > LINES - HEAD {
@@ -104,7 +104,7 @@ impl Pages {
     }
 }
 
-/// The first `width` characters; a text that is cut ends in `~`. Characters that would move the paper become blanks.
+/// The first `width` characters; a shortened text ends in `~`. Control characters become blanks.
 pub(crate) fn cut(text: &str, width: usize) -> String {
     let plain = |c: char| if c.is_control() { ' ' } else { c };
     if text.chars().count() > width {
@@ -115,7 +115,7 @@ pub(crate) fn cut(text: &str, width: usize) -> String {
     }
 }
 
-/// Words in lines that fit; those that go on are indented.
+/// Text folded into lines; continuations are indented.
 fn folded(words: &str) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     if words.is_empty() {

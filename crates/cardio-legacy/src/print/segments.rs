@@ -56,7 +56,7 @@ fn table(s: &Sample<'_>, title: String, heads: &str, cells: impl Fn(Segment) -> 
     table
 }
 
-/// The first cells of a segment's row.
+/// First cells of a segment's row.
 pub(crate) fn label(body: &Body, segment: Segment) -> [String; 2] {
     [segment.number().to_string(), body.tree[segment].name.to_owned()]
 }

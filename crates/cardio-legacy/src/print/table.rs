@@ -3,22 +3,22 @@
 use super::page::cut;
 use super::{COLUMNS, Pages};
 
-/// Columns between columns.
+/// Blanks between columns.
 const GAP: usize = 2;
-/// A name keeps at least so many characters.
+/// Smallest width of names.
 const SHORTEST: usize = 6;
 
 /// A table under construction.
 #[derive(Debug)]
 pub(crate) struct Table {
     title: String,
-    /// By column: true for words, which stand to the left.
+    /// By column: whether it is text, aligned to the left.
     words: Vec<bool>,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// A table; heads stand between `|`, and those of columns of words begin with `<`.
+    /// A table; headings are separated by `|`, and those of text columns begin with `<`.
     pub(crate) fn new(title: impl Into<String>, heads: &str) -> Self {
         Table {
             title: title.into(),
@@ -37,7 +37,7 @@ impl Table {
         self.rows.push(parts.concat());
     }
 
-    /// Writes it, or without any row these `lines` instead.
+    /// Writes it, or `lines` instead if it has no rows.
     pub(crate) fn write_or(&self, pages: &mut Pages, lines: &[&str]) {
         match self.rows.len() {
             1 => pages.block(&lines.iter().map(|line| (*line).to_owned()).collect::<Vec<_>>(), 0),
@@ -45,8 +45,8 @@ impl Table {
         }
     }
 
-    /// Writes it; its title and head are repeated on pages that continue it. Columns of numbers that find no room on a line stand
-    /// below the others.
+    /// Writes it; title and headings are repeated on continuation pages. Columns of numbers that do not fit on a line
+    /// follow below the others.
     pub(crate) fn write(&self, pages: &mut Pages) {
         let widths = self.widths();
         let fit = (1..=widths.len()).rev().find(|count| taken(&widths[..*count]) <= COLUMNS).unwrap_or(1);
@@ -93,7 +93,7 @@ impl Table {
     }
 }
 
-/// Columns of a line that cells of these widths take.
+/// Width of a line with cells of these widths.
 fn taken(widths: &[usize]) -> usize {
     widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1)
 }

@@ -4,7 +4,7 @@ use occupant_scenario::kind::UnitSystem;
 use occupant_units::unit::Shown;
 use occupant_units::unit::Unit as Measured;
 
-/// A unit of the printout with the decimals that are worth printing.
+/// A unit of the printout with its number of decimals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Unit {
     shown: Shown,
@@ -23,12 +23,12 @@ pub(crate) fn degree() -> Unit {
     Units::from(UnitSystem::Si).of(Measured::Radian)
 }
 
-/// Of accelerations in units of standard gravity.
+/// Accelerations in units of standard gravity.
 pub(crate) fn g() -> Unit {
     Unit { shown: Measured::MetrePerSecondSquared.shown_in("g"), decimals: 3, as_read: false }
 }
 
-/// Of plain numbers.
+/// Dimensionless numbers.
 pub(crate) fn ratio() -> Unit {
     Units::from(UnitSystem::Si).of(Measured::One)
 }
@@ -40,7 +40,7 @@ impl From<UnitSystem> for Units {
 }
 
 impl Units {
-    /// The same units, for numbers that were read: with all their digits.
+    /// The same units with all digits, for numbers that were read.
     pub(crate) fn as_read(self) -> Self {
         Units { as_read: true, ..self }
     }
@@ -83,7 +83,7 @@ impl Units {
         Unit { shown, decimals, as_read: self.as_read }
     }
 
-    /// A heading with the names of units in the place of its `{}`.
+    /// A heading with the names of units in place of `{}`.
     pub(crate) fn heading(self, text: &str, measured: &[Measured]) -> String {
         measured.iter().fold(text.to_owned(), |text, unit| text.replacen("{}", &self.of(*unit).name(), 1))
     }
@@ -95,7 +95,7 @@ impl Unit {
         self.shown.ascii().to_uppercase().replace('*', "-").replace('^', "")
     }
 
-    /// An SI value in this unit with its decimals; with an exponent where no column would hold it.
+    /// An SI value in this unit with its decimals; with an exponent if it does not fit into a column.
     pub(crate) fn show(self, si: f64) -> String {
         let (value, decimals) = (si / self.shown.si, self.decimals);
         if value == 0.0 || value.abs() < 1e7 && value.abs() >= 0.5 * 0.1_f64.powi(decimals as i32) {
@@ -105,8 +105,8 @@ impl Unit {
         if value.is_finite() { self.in_full(si, format!("{value:.3E}")) } else { value.to_string().to_uppercase() }
     }
 
-    /// A number that was read and that `rounded` does not give: the shortest decimal of at most ten digits that does. `rounded`
-    /// where there is none, as of numbers that were computed or written in another unit.
+    /// A number that was read and differs from `rounded`: the shortest equal decimal of at most ten digits. Otherwise
+    /// `rounded`, as for computed numbers.
     pub(crate) fn in_full(self, si: f64, rounded: String) -> String {
         let gives = |text: &String| text.parse::<f64>().is_ok_and(|number| number * self.shown.si == si);
         if !self.as_read || gives(&rounded) {
@@ -122,12 +122,12 @@ impl Unit {
         format!("{} {}", self.show(si), self.name())
     }
 
-    /// SI units in one of it.
+    /// SI units per unit.
     pub(crate) fn size(self) -> f64 {
         self.shown.si
     }
 
-    /// The same as [`Unit::show`], or `-` where there is none.
+    /// The same as [`Unit::show`], or `-` for none.
     pub(crate) fn perhaps(self, si: Option<f64>) -> String {
         si.map_or_else(|| "-".to_owned(), |si| self.show(si))
     }
@@ -137,7 +137,7 @@ impl Unit {
         si.into().map(|component| self.show(component))
     }
 
-    /// Three components in words.
+    /// Three components as text.
     pub(crate) fn point(self, si: impl Into<[f64; 3]>) -> String {
         format!("({})", self.vector(si).join(", "))
     }

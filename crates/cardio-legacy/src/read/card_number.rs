@@ -4,17 +4,17 @@ use crate::cards::{CardLayout, Format, NCARD, SeriesLayout, series_with_ncard};
 use crate::fortran::{read_integer, read_real};
 use crate::punched::{Columns, PunchedCard};
 
-/// Where the format I8 of series 7, 8 and 10 would read it.
+/// Columns in which the format I8 of series 7, 8 and 10 would read it.
 const NCARD_BY_I8: Columns = Columns::new(71, 78);
 
-/// What the columns of NCARD say.
+/// Content of the columns of NCARD.
 #[derive(Debug, Clone)]
 pub(super) enum CardNumber {
-    /// The series, by the number where the report describes it.
+    /// Series by a number in the documented columns.
     Series(&'static SeriesLayout),
-    /// The series, by a number that ends in column 78, where the format I8 reads it.
+    /// Series by a number that ends in column 78, as read by the format I8.
     ByFormat(&'static SeriesLayout),
-    /// The series, by a number that is not right-justified; `read_as` is what I10 makes of it.
+    /// Series by a number that is not right-justified; `read_as` is its value by I10.
     Misplaced { series: &'static SeriesLayout, read_as: String },
     /// Nothing.
     Blank,
@@ -23,7 +23,7 @@ pub(super) enum CardNumber {
 }
 
 impl CardNumber {
-    /// The series that the number names.
+    /// Series of the number.
     pub(super) fn series(&self) -> Option<&'static SeriesLayout> {
         match self {
             Self::Series(series) | Self::ByFormat(series) | Self::Misplaced { series, .. } => Some(series),
@@ -51,13 +51,13 @@ pub(super) fn card_number(card: &PunchedCard) -> CardNumber {
     }
 }
 
-/// The series 7, 8 or 10 by a number that ends where its format I8 does. A 10 there is no 1000 to its own format.
+/// Series 7, 8 or 10 by a number that ends where its format I8 ends. A 10 there is not 1000 in its own format.
 fn by_format(card: &PunchedCard) -> Option<&'static SeriesLayout> {
     let number = read_integer(card.field(NCARD_BY_I8)).ok().filter(|_| card.is_blank_in(Columns::new(79, 80)))?;
     with_number(number.value).filter(|series| matches!(series.number, 7 | 8 | 10))
 }
 
-/// The series that a card's number names, wherever in its columns it stands.
+/// Series of a card's number, anywhere in its columns.
 pub(super) fn series_by_number(card: &PunchedCard) -> Option<&'static SeriesLayout> {
     card_number(card).series()
 }
@@ -66,8 +66,8 @@ fn with_number(value: f64) -> Option<&'static SeriesLayout> {
     if (1.0..=9999.0).contains(&value) { series_with_ncard(value as u32) } else { None }
 }
 
-/// Whether a card is beyond doubt the first one of a series: a known card number, right-justified, numbers or blanks in
-/// the fields before it and blanks in between. Used only to find the place again in a deck that has gone wrong.
+/// Whether a card is certainly the first of a series: a known card number, right-justified, numbers or blanks in the
+/// fields before it and blanks between. Used only to resynchronize in a damaged deck.
 pub(super) fn looks_like_first_card(card: &PunchedCard) -> Option<&'static SeriesLayout> {
     let CardNumber::Series(series) = card_number(card) else { return None };
     let layout = series.cards.first()?;

@@ -6,7 +6,7 @@ use crate::deck::DeckCard;
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::rule::Rule;
 
-/// Reports missing, surplus and doubled series and cards; true if the deck has all that it needs.
+/// Reports missing, surplus and duplicate series and cards; true if the deck is complete.
 pub(super) fn check_completeness(read: &SeriesRead, first_line: usize, sink: &mut Sink) -> bool {
     let before = sink.errors();
     let card_3 = read.get(&3).and_then(|cards| cards.first());

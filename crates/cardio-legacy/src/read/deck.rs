@@ -11,14 +11,14 @@ use crate::diagnostics::Diagnostic;
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::Rule;
 
-/// Where card readers punched sequence numbers.
+/// Columns of punched sequence numbers.
 const SEQUENCE: Columns = Columns::new(73, 80);
 
-/// How many cards are searched for the third one when the titles are not where they should be.
+/// Number of cards searched for series 3 if the titles are not in their place.
 const TITLE_SEARCH: usize = 8;
 
 impl Reader<'_> {
-    /// Reads one deck from the present card; always moves on. `None` if it is not whole.
+    /// Reads one deck from the present card; always advances. `None` if it is incomplete.
     pub(super) fn read_deck(&mut self) -> Option<Deck> {
         let first_line = self.card()?.line;
         let titles = self.read_titles();
@@ -32,7 +32,7 @@ impl Reader<'_> {
         Some(deck)
     }
 
-    /// The two title cards: they stand before the card of series 3, which has its number.
+    /// The two title cards, before the card of series 3, which is recognized by its number.
     fn read_titles(&mut self) -> Option<[String; 2]> {
         let here = &self.cards[self.at..];
         match place_of_third(here) {
@@ -66,7 +66,7 @@ impl Reader<'_> {
             .report(self.sink);
     }
 
-    /// The series with a card number, up to and with the card 1000.
+    /// The series with a card number, up to and including the card 1000.
     fn read_all_series(&mut self) -> SeriesRead {
         let mut read = SeriesRead::new();
         let mut highest = 2;
@@ -90,7 +90,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The series that begins with this card: by its number, or, where that is blank, by its place.
+    /// Series that begins with this card: by its number or, if that is blank, by its position.
     fn series_here(&self, card: &PunchedCard, highest: u8, read: &SeriesRead) -> Option<&'static SeriesLayout> {
         let number = card_number(card);
         if !matches!(number, CardNumber::Blank) {
@@ -114,7 +114,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Passes over cards until a series begins, a word stands alone, or the file ends.
+    /// Skips cards until a series begins, a word is alone on a card, or the file ends.
     fn skip_unexpected(&mut self, highest: u8) {
         let here = &self.cards[self.at..];
         let Some(first) = here.first() else { return };
@@ -140,7 +140,7 @@ impl Reader<'_> {
         self.at += count;
     }
 
-    /// Reports that the numbers end without a card 1000, before a word or with the file.
+    /// Reports that the numbers end without a card 1000, at a word or at the end of the file.
     fn report_no_end(&mut self) {
         let truncated = Diagnostic::new(Rule::Truncated, "the file ends inside a deck");
         let no_terminator = Diagnostic::new(Rule::NoTerminator, "the numbers end without the card 1000 (series 15)");
@@ -151,7 +151,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The plot card; `None` if the deck ends without one and is not to be used.
+    /// The plot card; `None` if the deck ends without one and is unusable.
     fn read_plot(&mut self) -> Option<Plot> {
         let id = CardId { series: PLOT_SERIES, letter: None, number: None };
         let card = self.card();
@@ -180,14 +180,14 @@ impl Reader<'_> {
     }
 }
 
-/// Whether columns 73–80 of cards hold sequence numbers: digits that grow from card to card.
+/// Whether columns 73–80 of cards contain sequence numbers: digits that increase from card to card.
 fn are_numbered(cards: &[PunchedCard]) -> bool {
     let number = |card: &PunchedCard| card.text_of(SEQUENCE).trim().parse::<u32>().ok();
     let numbers: Option<Vec<u32>> = cards.iter().map(number).collect();
     numbers.is_some_and(|all| all.len() > 2 && all.windows(2).all(|pair| pair[0] < pair[1]))
 }
 
-/// Where the card of series 3 stands, counted from the first title.
+/// Position of the card of series 3, counted from the first title.
 pub(super) fn place_of_third(cards: &[PunchedCard]) -> Option<usize> {
     if cards.get(2).and_then(series_by_number).is_some_and(|s| s.number == 3) {
         return Some(2);

@@ -7,10 +7,10 @@ use crate::fortran::{FieldError, read_integer, read_real};
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::Rule;
 
-/// Columns in which a punch may number the cards of a deck, where the format leaves them free.
+/// Columns in which a punch may number the cards of a deck, if the format leaves them free.
 const SEQUENCE: Columns = Columns::new(73, 80);
 
-/// Reads every field of a card but NCARD, which [`super::series`] reads, and looks at the columns in between.
+/// Reads every field of a card except NCARD, which [`super::series`] reads, and checks the columns between.
 pub(super) fn read_fields(card: &PunchedCard, layout: &CardLayout, id: CardId, sink: &mut Sink) -> Vec<Number> {
     check_free_columns(card, layout, id, sink);
     let mut read = |field: &Field| match &*field.variable {
@@ -20,7 +20,7 @@ pub(super) fn read_fields(card: &PunchedCard, layout: &CardLayout, id: CardId, s
     layout.fields.iter().map(&mut read).collect()
 }
 
-/// A numeric field of a card under reading.
+/// A numeric field of a card being read.
 struct FieldOnCard<'a> {
     card: &'a PunchedCard,
     id: CardId,
@@ -107,7 +107,7 @@ fn character(byte: u8) -> String {
     }
 }
 
-/// What a field takes, as text.
+/// Expected content of a field, as text.
 fn expectation(field: &Field) -> String {
     let width = field.columns.width();
     match field.format {
@@ -118,7 +118,7 @@ fn expectation(field: &Field) -> String {
     }
 }
 
-/// Reports what stands in columns that no field covers, sequence numbers excepted.
+/// Reports characters in columns without a field, except sequence numbers.
 fn check_free_columns(card: &PunchedCard, layout: &CardLayout, id: CardId, sink: &mut Sink) {
     for gap in gaps(layout) {
         let is_punched = |column: &u8| !card.is_blank_in(Columns::new(*column, *column));
@@ -135,7 +135,7 @@ fn check_free_columns(card: &PunchedCard, layout: &CardLayout, id: CardId, sink:
     }
 }
 
-/// The columns between the fields of a card; 73–80 are free for sequence numbers where no field reaches column 71.
+/// Columns between the fields of a card; 73–80 are free for sequence numbers if no field reaches column 71.
 fn gaps(layout: &CardLayout) -> Vec<Columns> {
     let mut next = 1;
     let mut gaps = Vec::new();

@@ -7,7 +7,8 @@ use crate::rule::Rule;
 const TAB_WIDTH: usize = 8;
 const END_MARK: u8 = 0x1a;
 
-/// Cuts a file into cards. Lines end with LF, CR LF or CR; a DOS end-of-file mark and what follows it are left away.
+/// Splits a file into cards. Lines end with LF, CR LF or CR; a DOS end-of-file mark and everything after it are
+/// dropped.
 pub(super) fn read_cards(bytes: &[u8], sink: &mut Sink) -> Vec<PunchedCard> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let bytes = until_end_mark(bytes, sink);
@@ -18,17 +19,17 @@ pub(super) fn read_cards(bytes: &[u8], sink: &mut Sink) -> Vec<PunchedCard> {
     cards
 }
 
-/// What stands behind the last column of a card, and where it ends.
+/// Text beyond the last column of a card, and its end.
 struct Behind {
     card: PunchedCard,
     last_column: usize,
     text: String,
 }
 
-/// So many lines that go on beyond column 80 are slips; more of them are how the file was made.
+/// Number of lines beyond column 80 up to which they are mistakes; more are a property of the file.
 const MOST_SLIPS: usize = 3;
 
-/// Reports lines that go on beyond column 80: slips one by one, what was added to all cards once.
+/// Reports lines beyond column 80: mistakes one by one, additions to all cards once.
 fn report_long(long: &[Behind], sink: &mut Sink) {
     let column =
         |last| if last == CARD_WIDTH + 1 { "column 81 is".to_owned() } else { format!("columns 81–{last} are") };

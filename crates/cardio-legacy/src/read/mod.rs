@@ -20,22 +20,22 @@ use fields::read_fields;
 use lines::read_cards;
 use series::is_word;
 
-/// The series read so far of a deck, by number.
+/// The series of a deck read so far, by number.
 type SeriesRead = BTreeMap<u8, Vec<DeckCard>>;
 
 /// Columns of the words STAN, NONE and FINI.
 const WORD: Columns = Columns::new(1, 4);
 const FINI: &str = "FINI";
 const PLOT_SERIES: u8 = 16;
-/// Two titles and a card with a number: fewer cards begin no deck.
+/// Fewest cards of a deck: two titles and a card with a number.
 const FEWEST_CARDS: usize = 3;
 
-/// How a file of decks is read.
+/// Options for reading a file of decks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParseOptions {
     /// Name of the file, for the diagnostics.
     pub file: String,
-    /// How strictly it is judged.
+    /// Strictness.
     pub strictness: Strictness,
 }
 
@@ -53,9 +53,11 @@ impl Deck {
         place_of_third(&read_cards(&bytes, &mut sink)).is_some()
     }
 
-    /// Reads a file of decks. Every problem of the file is in the diagnostics; a deck with an error is not handed out.
+    /// Reads a file of decks. All problems of the file are in the diagnostics; a deck with an error is not returned.
     ///
-    /// The bytes are Latin-1, UTF-16 with its mark, or EBCDIC; records of 80 columns need no line ends. Nothing that they hold makes this panic.
+    ///
+    /// The bytes are Latin-1, UTF-16 with its byte order mark, or EBCDIC; records of 80 columns need no line ends. No
+    /// content makes this panic.
     pub fn parse(bytes: impl AsRef<[u8]>, options: &ParseOptions) -> (Vec<Self>, Diagnostics) {
         let mut sink = Sink::new(&options.file, options.strictness);
         let decks = read_file(bytes.as_ref(), &mut sink);
@@ -63,7 +65,7 @@ impl Deck {
     }
 }
 
-/// Reads all decks of a file; those with an error are left out.
+/// Reads all decks of a file, without those that have an error.
 fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
     let bytes = records::as_lines(bytes, sink);
     if records::are_no_cards(&bytes, sink) {
@@ -100,13 +102,13 @@ fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
     decks
 }
 
-/// Whether a card is the final one: its word in capitals, or alone in any letters.
+/// Whether a card is the final one: its word in capitals, or alone in any case.
 fn starts_with_fini(card: &PunchedCard) -> bool {
     let word = card.text_of(WORD);
     word == FINI || (is_word(card) && word.eq_ignore_ascii_case(FINI))
 }
 
-/// A file under reading: its cards, where it stands, what was found.
+/// A file being read: its cards, the position, the problems.
 struct Reader<'a> {
     cards: &'a [PunchedCard],
     at: usize,
@@ -118,7 +120,7 @@ impl<'a> Reader<'a> {
         self.cards.get(self.at)
     }
 
-    /// The final card, and what stands behind it.
+    /// The final card, and cards after it.
     fn end_file(&mut self, card: &PunchedCard) {
         if self.at == 0 {
             Diagnostic::new(Rule::EmptyFile, "the first card is the final one: the file holds no deck")
@@ -146,7 +148,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Cards behind a deck that are neither the final one nor another deck.
+    /// Cards after a deck that are neither the final one nor another deck.
     fn leave_rest(&mut self, card: &PunchedCard) {
         let word = card.text_of(WORD);
         Diagnostic::new(
@@ -159,7 +161,7 @@ impl<'a> Reader<'a> {
         .report(self.sink);
     }
 
-    /// Reports what stands behind the word on a card that holds nothing else.
+    /// Reports text after the word on a card that should contain nothing else.
     fn check_rest_of_word_card(&mut self, card: &PunchedCard, id: CardId) {
         if let Some(layout) = series(PLOT_SERIES).and_then(|s| s.cards.first()) {
             read_fields(card, layout, id, self.sink);

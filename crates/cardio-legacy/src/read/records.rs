@@ -6,7 +6,7 @@ use crate::diagnostics::{Diagnostic, Sink};
 use crate::punched::{CARD_WIDTH, is_control};
 use crate::rule::Rule;
 
-/// The characters of EBCDIC, code page 037, in Latin-1; both of its line ends are LF.
+/// Characters of EBCDIC, code page 037, in Latin-1; both of its line ends are LF.
 #[rustfmt::skip]
 const LATIN_1: [u8; 256] = [
     0x00, 0x01, 0x02, 0x03, 0x9c, 0x09, 0x86, 0x7f, 0x97, 0x8d, 0x8e, 0x0b, 0x0c, 0x0d, 0x0e, 0x0f,
@@ -27,10 +27,10 @@ const LATIN_1: [u8; 256] = [
     0x30, 0x31, 0x32, 0x33, 0x34, 0x35, 0x36, 0x37, 0x38, 0x39, 0xb3, 0xdb, 0xdc, 0xd9, 0xda, 0x9f,
 ];
 
-/// The blank of EBCDIC.
+/// Blank in EBCDIC.
 const BLANK: u8 = 0x40;
 
-/// The file in Latin-1 with line ends, as a text editor would have it, and what was done to it.
+/// The file in Latin-1 with line ends, as in a text editor, and the conversions applied.
 pub(super) fn as_lines<'a>(bytes: &'a [u8], sink: &mut Sink) -> Cow<'a, [u8]> {
     let bytes = match bytes {
         [0xff, 0xfe, rest @ ..] => Cow::Owned(from_utf16(rest, u16::from_le_bytes, sink)),
@@ -42,7 +42,7 @@ pub(super) fn as_lines<'a>(bytes: &'a [u8], sink: &mut Sink) -> Cow<'a, [u8]> {
     if has_no_lines(&bytes) { Cow::Owned(cut(&bytes, sink)) } else { bytes }
 }
 
-/// Reports a file of which more than one character in fifty is none of a card, and says so.
+/// Reports a file in which more than one character in fifty is not one of cards; returns whether it did.
 pub(super) fn are_no_cards(bytes: &[u8], sink: &mut Sink) -> bool {
     let odd = bytes.iter().filter(|b| is_control(**b) && !matches!(**b, b'\n' | b'\r' | b'\t' | 0x0c | 0x1a)).count();
     let is_none = 50 * odd > bytes.len();
@@ -58,7 +58,8 @@ fn from_utf16(bytes: &[u8], number: fn([u8; 2]) -> u16, sink: &mut Sink) -> Vec<
     bytes.chunks_exact(2).map(|pair| u8::try_from(number([pair[0], pair[1]])).unwrap_or(b'?')).collect()
 }
 
-/// Whether more than half of a file are blanks and digits of EBCDIC, of which ASCII has one as `@` and the others not at all.
+/// Whether more than half of a file are blanks and digits of EBCDIC, of which ASCII has one as `@` and the others not
+/// at all.
 fn is_ebcdic(bytes: &[u8]) -> bool {
     let count = |is: fn(&u8) -> bool| bytes.iter().filter(|b| is(b)).count();
     let (ebcdic, ascii) = (count(|b| matches!(*b, BLANK | 0xf0..=0xf9)), count(|b| matches!(*b, b' ' | b'0'..=b'9')));
@@ -71,7 +72,7 @@ fn from_ebcdic(bytes: &[u8], sink: &mut Sink) -> Vec<u8> {
     bytes.iter().map(|b| LATIN_1[usize::from(*b)]).collect()
 }
 
-/// Whether a file of more than one card has no line end, but perhaps at its end.
+/// Whether a file of more than one card has no line end, except perhaps at its end.
 fn has_no_lines(bytes: &[u8]) -> bool {
     let end = bytes.iter().rposition(|b| !matches!(b, b'\r' | b'\n')).map_or(0, |last| last + 1);
     end > 2 * CARD_WIDTH && !bytes[..end].iter().any(|b| matches!(b, b'\r' | b'\n'))

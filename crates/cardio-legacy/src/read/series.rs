@@ -12,12 +12,12 @@ use crate::fortran::read_integer;
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::Rule;
 
-/// What is blank between the number of a segment or surface and its other fields.
+/// Blank columns between the index of a segment or surface and its other fields.
 const AFTER_INDEX: Columns = Columns::new(3, 10);
-/// No file of cards counts more than this.
+/// Largest plausible number of cards.
 const MOST_CARDS: f64 = 1e9;
 
-/// Reads the series that begins with the first of `cards`; returns its cards and how many cards of the file it took.
+/// Reads the series that begins with the first of `cards`; returns its cards and the number of cards used.
 pub(super) fn read_series(cards: &[PunchedCard], series: &SeriesLayout, sink: &mut Sink) -> (Vec<DeckCard>, usize) {
     match cards.split_first() {
         Some((first, behind)) => SeriesReader { first, behind, series, sink }.read(),
@@ -25,7 +25,7 @@ pub(super) fn read_series(cards: &[PunchedCard], series: &SeriesLayout, sink: &m
     }
 }
 
-/// A series under reading: its first card and all cards of the file behind it.
+/// A series being read: its first card and all following cards of the file.
 struct SeriesReader<'a> {
     first: &'a PunchedCard,
     behind: &'a [PunchedCard],
@@ -60,7 +60,7 @@ impl SeriesReader<'_> {
         (read, 1 + count)
     }
 
-    /// Reads the cards behind the first one; those that do not say for which segment or surface they are are left out.
+    /// Reads the cards after the first, without those that lack the index of a segment or surface.
     fn read_behind(&mut self, count: usize) -> Vec<DeckCard> {
         let times = |layout: &CardLayout| if layout.repeat == Repeat::Once { 1 } else { count };
         let layouts = self.series.cards.iter().skip(1).flat_map(|layout| repeat_n(layout, times(layout)));
@@ -68,7 +68,7 @@ impl SeriesReader<'_> {
         cards.filter_map(|((card, n), layout)| read_card(card, n, self.series.number, layout, self.sink)).collect()
     }
 
-    /// Says what is odd about the card number of the first card.
+    /// Reports irregularities of the card number of the first card.
     fn report_card_number(&mut self, id: CardId) {
         let problem = |rule, message: String| {
             Diagnostic::new(rule, message).on(self.first).in_card(id).at(NCARD).variable("NCARD")
@@ -95,7 +95,7 @@ impl SeriesReader<'_> {
         problem.report(self.sink);
     }
 
-    /// The count on the first card of series 12 or 14; `None` if it counts nothing sensible.
+    /// Count on the first card of series 12 or 14; `None` if it is not a plausible count.
     fn count(&mut self, id: CardId, count: &Number) -> Option<usize> {
         if count.value >= 1.0 && count.value <= MOST_CARDS && count.value.fract() == 0.0 {
             return Some(count.value as usize);
@@ -114,8 +114,8 @@ impl SeriesReader<'_> {
         None
     }
 
-    /// How many cards behind the first one belong to a series whose cards carry their own number: as many as there should
-    /// be, fewer if something else begins, more while cards with such a number follow.
+    /// Number of cards after the first in a series whose cards have indices: as many as expected, fewer if something
+    /// else begins, more while cards with such an index follow.
     fn cards_with_index(&self, layout: &CardLayout, count: u32) -> usize {
         let numbered =
             |card| PunchedCard::is_blank_in(card, AFTER_INDEX) && index_on_card(card, layout, count).is_some();
@@ -123,8 +123,8 @@ impl SeriesReader<'_> {
         self.behind.iter().enumerate().take_while(|place_and_card| follows(*place_and_card)).count()
     }
 
-    /// How many cards behind the first one belong to the series. The layout or the count says so; where the next series
-    /// begins elsewhere, the cards that stand there do, and the difference is reported.
+    /// Number of cards after the first in the series. The layout or the count gives it; if the next series begins
+    /// elsewhere, the present cards count, and the difference is reported.
     fn cards_behind(&mut self, wanted: Option<usize>) -> usize {
         let standing = self.behind.iter().position(begins_something).unwrap_or(self.behind.len());
         let Some(wanted) = wanted else { return standing };
@@ -158,7 +158,7 @@ impl SeriesReader<'_> {
     }
 }
 
-/// Reads a card behind the first one; `None` if it does not say for which segment or surface it is.
+/// Reads a card after the first; `None` if it lacks the index of a segment or surface.
 fn read_card(card: &PunchedCard, n: u32, series: u8, layout: &CardLayout, sink: &mut Sink) -> Option<DeckCard> {
     let number = match layout.repeat {
         Repeat::Once => None,
@@ -178,7 +178,7 @@ fn deck_card(card: &PunchedCard, id: CardId, numbers: Vec<Number>) -> DeckCard {
     DeckCard { id, line: Some(card.line), raw: Some(card.text()), numbers }
 }
 
-/// The segment or surface number on a card, if it is one.
+/// Index of a segment or surface on a card, if valid.
 fn index_on_card(card: &PunchedCard, layout: &CardLayout, count: u32) -> Option<u32> {
     let value = read_integer(card.field(layout.fields[0].columns)).ok()?.value;
     (1.0..=f64::from(count)).contains(&value).then_some(value as u32)
@@ -198,17 +198,17 @@ fn report_bad_index(card: &PunchedCard, id: CardId, field: &Field, count: u32, r
         .report(sink);
 }
 
-/// Whether a series begins with a card, or a word stands alone on it.
+/// Whether a series begins with a card, or a word is alone on it.
 pub(super) fn begins_something(card: &PunchedCard) -> bool {
     looks_like_first_card(card).is_some() || is_word(card)
 }
 
-/// Whether a card can be no other than the card 1000 or a word behind it.
+/// Whether a card is certainly the card 1000 or a word after it.
 fn ends_numbers(card: &PunchedCard) -> bool {
     looks_like_first_card(card).is_some_and(|series| series.number == END_OF_NUMBERS) || is_word(card)
 }
 
-/// STAN, NONE or FINI alone on a card, in capitals or not.
+/// Whether STAN, NONE or FINI is alone on a card, in capitals or not.
 pub(super) fn is_word(card: &PunchedCard) -> bool {
     let word = card.text_of(WORD).to_ascii_uppercase();
     matches!(word.as_str(), "STAN" | "NONE" | FINI) && card.is_blank_in(Columns::new(5, 72))

@@ -6,9 +6,9 @@
 use super::require_pair;
 use crate::signal::SignalError;
 
-/// Largest magnitude of the mean residual that W179 is said to accept.
+/// Largest magnitude of the mean residual accepted by W179, from memory.
 pub const W179_LARGEST_MEAN: f64 = 0.05;
-/// Largest standard deviation that W179 is said to accept.
+/// Largest standard deviation accepted by W179, from memory.
 pub const W179_LARGEST_DEVIATION: f64 = 0.35;
 
 /// Statistics of the residuals as fractions of the measured peak.
@@ -21,7 +21,7 @@ pub struct Anova {
 }
 
 impl Anova {
-    /// Whether both are within what W179 is said to accept.
+    /// Whether both are within the limits of W179.
     #[must_use]
     pub fn accepted(&self) -> bool {
         self.mean.abs() <= W179_LARGEST_MEAN && self.standard_deviation <= W179_LARGEST_DEVIATION

@@ -9,11 +9,11 @@ pub(super) struct Shifted<'a> {
     pub computed: &'a [f64],
     /// Samples by which the computed signal is late; negative where it is early.
     pub lag: isize,
-    /// The agreement reached.
+    /// Agreement at this shift.
     pub agreement: f64,
 }
 
-/// What a lag must have over the best one before it: agreements that differ by less are equal but for rounding.
+/// Least gain of a lag over the best one before it; smaller differences are rounding.
 const TIE: f64 = 1e-12;
 
 /// Tries lags of 0, then ±1, ±2 … up to `most` and keeps the best agreement; among equals (to 1e−12) the

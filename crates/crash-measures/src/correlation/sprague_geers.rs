@@ -8,7 +8,7 @@ use super::require_pair;
 use crate::signal::SignalError;
 use occupant_units::trig;
 
-/// Largest magnitude of each error that W179 is said to accept.
+/// Largest magnitude of each error accepted by W179, from memory.
 pub const W179_LARGEST_ERROR: f64 = 0.40;
 
 /// Sprague–Geers errors as fractions.

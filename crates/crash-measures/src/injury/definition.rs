@@ -7,7 +7,7 @@ use crate::measure::{Dummy, Peak, Quantity, ThreeMs};
 use crate::signal::{ChannelClass, SignalError};
 use occupant_units::unit::Unit;
 
-/// A measure: what it is called, how it is made, what it is judged by.
+/// Definition of a measure: name, formula, limits, risk curves.
 pub(super) struct Definition {
     name: &'static str,
     label: &'static str,
@@ -16,36 +16,36 @@ pub(super) struct Definition {
     brief: bool,
     class: ChannelClass,
     of: Make,
-    /// What is said where its signal is not there; without words it is left out of the list then.
+    /// Remark if its signal is missing; without one the measure is then left out.
     absent: Option<&'static str>,
     limited: Option<Quantity>,
     risks: &'static [(&'static str, Severity)],
     curve: fn(f64, Severity, Dummy) -> Option<f64>,
 }
 
-/// A value and the window where it stands, counted from the first sample.
+/// A value and its window, relative to the first sample.
 pub(super) struct Finding {
     pub value: f64,
     pub from_s: Option<f64>,
     pub to_s: Option<f64>,
     pub remark: Option<String>,
-    /// Whether limits and risks of dummies hold for it.
+    /// Whether limits and risk curves of dummies apply to it.
     pub is_of_dummy: bool,
 }
 
-/// Makes a measure of readings.
+/// Formula of a measure.
 pub(super) type Make = fn(&Readings) -> Result<Finding, Lack>;
 
-/// Why a measure has no value.
+/// Reason why a measure has no value.
 #[derive(Debug)]
 pub(super) enum Lack {
-    /// A signal cannot be used.
+    /// An unusable signal.
     Unusable(SignalError),
-    /// No signal of that kind is read.
+    /// No such signal is recorded.
     Absent,
-    /// The dummy that limits are asked for has no such criterion.
+    /// The dummy of the limits has no such criterion.
     NotOfDummy,
-    /// The head never rests on its restraint.
+    /// The head never touches the restraint.
     NoContact,
 }
 
@@ -68,31 +68,31 @@ pub(super) const fn measure(
 }
 
 impl Definition {
-    /// In tables of many runs it bears this name.
+    /// Name in tables of many runs.
     pub(super) const fn figure(mut self, name: &'static str) -> Self {
         self.figure = Some(name);
         self
     }
 
-    /// It is listed with these words where its signal is not there.
+    /// Lists it with this remark if its signal is missing.
     pub(super) const fn or_say(mut self, reason: &'static str) -> Self {
         self.absent = Some(reason);
         self
     }
 
-    /// It stands in short tables too.
+    /// Includes it in short tables.
     pub(super) const fn brief(mut self) -> Self {
         self.brief = true;
         self
     }
 
-    /// It is judged by the limits of a quantity.
+    /// Compares it with the limits of a quantity.
     pub(super) const fn limited(mut self, quantity: Quantity) -> Self {
         self.limited = Some(quantity);
         self
     }
 
-    /// Probabilities of injuries follow from its value.
+    /// Adds risk curves.
     pub(super) const fn risks(
         mut self,
         injuries: &'static [(&'static str, Severity)],
@@ -103,7 +103,7 @@ impl Definition {
         self
     }
 
-    /// The measure of a run; none if its signal is not there and nothing is to be said of that.
+    /// The measure of a run; none if its signal is missing and it has no remark.
     pub(super) fn of(&self, readings: &Readings) -> Option<Measure> {
         let filtered = readings.options.filtering != Filtering::None;
         let filter_class = if filtered { self.class.hertz() as u32 } else { 0 };
@@ -154,19 +154,19 @@ impl Definition {
     }
 }
 
-/// Of measures that count from the head's contact.
+/// Remark of measures that start at the head's contact.
 const NO_CONTACT: &str = "the head is never in contact with its restraint for 40 ms";
 
-/// Of a measure without a part that it could be of.
+/// Remark of a measure whose body part is missing.
 const NO_PART: &str = "the body has no such part, or a mount prescribes its motion";
 
 impl Measure {
-    /// Whether the body has the part that it is of, and moves it by itself.
+    /// Whether the body has this part, and its motion is computed.
     pub fn has_part(&self) -> bool {
         self.remark.as_deref() != Some(NO_PART)
     }
 
-    /// Finds risks, of ever worse injuries, that cannot both be: the worse one is the more likely.
+    /// Finds contradictory risks, where a worse injury is more likely.
     fn compare_risks(&mut self) {
         for worse in 1..self.risks.len() {
             if self.risks[worse].probability > self.risks[worse - 1].probability {
@@ -181,7 +181,7 @@ impl Measure {
     }
 }
 
-/// Why there is no value; the same words for all classes of filters.
+/// Reason why there is no value; the same text for all filter classes.
 fn why(error: &SignalError) -> String {
     match error {
         SignalError::CornerAboveNyquist { nyquist_hz, .. } => {

@@ -80,7 +80,7 @@ pub(super) const CHEST: &[Definition] = &[
         .limited(Quantity::SeverityIndex),
 ];
 
-/// Measures of the pelvis and the thighs.
+/// Measures of the pelvis and the femurs.
 pub(super) const PELVIS_AND_FEMURS: &[Definition] = &[
     measure("pelvis_peak", "pelvis, peak", MetrePerSecondSquared, Cfc1000, |r| peak(&r.pelvis.peak))
         .figure("pelvis.peak"),
@@ -135,7 +135,7 @@ impl Readings {
         Ok(Finding { from_s: Some(n.time_s), remark: Some(format!("in {}", mode(n.mode))), ..whole(n.value) })
     }
 
-    /// The largest value of a signal in a sense; 0 if it never has it.
+    /// Largest value of a signal in a direction; 0 if it never has that sign.
     fn towards(&self, which: Extreme, sign: f64, signal: &[f64]) -> Result<Finding, Lack> {
         let sampled = peak_towards(sign, signal, self.interval_s)?;
         let known = self.peak_of(which).map(|peak| Peak { value: peak.value.max(0.0), ..peak });

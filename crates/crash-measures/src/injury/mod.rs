@@ -26,10 +26,10 @@ pub use readings::{Acceleration, Readings};
 pub use signals::{Components, Extreme, Extremes, Person, Signals};
 pub use special::{ChestPoint, Special, TibiaLoad, TibiaSite};
 
-/// How signals are filtered before a measure is made of them.
+/// Filters of signals before measures are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filtering {
-    /// Not at all.
+    /// Unfiltered.
     #[default]
     None,
     /// By the class that SAE J211 names for each channel: head and pelvis accelerations and neck forces 1000, neck moments
@@ -37,12 +37,12 @@ pub enum Filtering {
     Classes(CfcFamily),
 }
 
-/// What measures are compared with.
+/// Settings of measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// The dummy whose limits and risk curves hold.
+    /// The dummy whose limits and risk curves apply.
     pub dummy: Dummy,
-    /// Whether a body of another size is compared with the frontal dummy of its own: see [`Options::for_body`].
+    /// Whether a body of another size is compared with the frontal dummy of that size: see [`Options::for_body`].
     pub by_size: bool,
     /// Filters.
     pub filtering: Filtering,
@@ -56,13 +56,13 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Compares with one dummy, whatever the body.
+    /// Settings for one dummy, whatever the body.
     #[must_use]
     pub fn with(self, dummy: Dummy) -> Options {
         Options { dummy, by_size: false, ..self }
     }
 
-    /// What a body of this mass, kg, is compared with: the Hybrid III nearest to it, where its size decides.
+    /// Settings for a body of this mass, kg: the Hybrid III nearest in mass, if chosen by size.
     #[must_use]
     pub fn for_body(self, mass_kg: f64) -> Options {
         if !self.by_size {
@@ -79,28 +79,28 @@ impl Options {
 pub struct Measure {
     /// Name, such as `hic15`.
     pub name: &'static str,
-    /// What tables call it.
+    /// Label in tables.
     pub label: &'static str,
     /// Its name among the figures of a run; none for one that no run has.
     #[serde(skip)]
     pub figure: Option<&'static str>,
-    /// Whether it stands in short tables.
+    /// Whether it is in short tables.
     #[serde(skip)]
     pub brief: bool,
     /// Unit of the value and of its limits.
     #[serde(serialize_with = "symbol")]
     pub unit: Unit,
-    /// The value; none if it cannot be had, for the reason in `remark`.
+    /// The value; none if it cannot be computed, for the reason in `remark`.
     pub value: Option<f64>,
-    /// When, or the start of the window, s.
+    /// Its time, or the start of its window, s.
     pub from_s: Option<f64>,
     /// End of the window, s.
     pub to_s: Option<f64>,
     /// Filter class of its signals; 0 is none.
     pub filter_class: u32,
-    /// Why there is no value, or what to know of it.
+    /// Reason for a missing value, or a remark.
     pub remark: Option<String>,
-    /// Against limits.
+    /// Comparison with limits.
     pub limits: Vec<Judgement>,
     /// Probabilities of injury.
     pub risks: Vec<Risk>,
@@ -113,7 +113,7 @@ impl Measure {
     }
 }
 
-/// A measure against one limit.
+/// A measure compared with one limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Judgement {
     /// The rule.
@@ -126,7 +126,7 @@ pub struct Judgement {
     pub margin: f64,
     /// The margin as a fraction of the limit.
     pub relative_margin: f64,
-    /// Whether the number was read where somebody quotes the rule, or is only generally known.
+    /// Whether the limit was read in a source that quotes the rule; otherwise it is from memory.
     pub quoted: bool,
 }
 
@@ -137,8 +137,8 @@ pub struct Risk {
     pub injury: &'static str,
     /// 0 to 1.
     pub probability: f64,
-    /// Whether its curve agrees with those of milder and of worse injuries, which cannot be less and more likely: curves were
-    /// fitted one by one and cross.
+    /// Whether its curve is consistent with those of milder and worse injuries, of which the worse cannot be more
+    /// likely: the curves were fitted separately and cross.
     pub agrees: bool,
 }
 
@@ -148,12 +148,12 @@ pub fn assess(signals: &Signals, options: &Options) -> Vec<Measure> {
     Readings::new(signals, options).measures()
 }
 
-/// So many samples are needed for a half of them to say anything.
+/// Fewest samples for which half of them still give a result.
 const FEWEST: usize = 4;
 
-/// By which part of its value each of `measures`, made of `signals`, changes at most when the even or the odd samples are left out:
-/// a spike that one sample shows counts. All of it where there are fewer than four samples; 0 where the change is not known, or less
-/// than 1 % of all limits, or of 1 where a pure number has none: what rests has no measure that an interval could spoil.
+/// Largest relative change of each of `measures`, computed from `signals`, when the even or the odd samples are left
+/// out: it detects spikes of a single sample. 1 with fewer than four samples; 0 where the change is unknown or smaller
+/// than 1 % of all limits (of 1 for a pure number without limits).
 pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) -> Vec<f64> {
     let halves = [0, 1].map(|first| assess(&signals.every_other(first), options));
     let change = |whole: &Measure, half: &Measure| {
@@ -187,7 +187,7 @@ pub const RULES: [Rule; 14] = [
     Rule::SeverityIndex,
 ];
 
-/// Beyond a limit of these grades a rule is not met, or a rating gives no points.
+/// Whether exceeding a limit of these grades breaks a rule or scores no points.
 fn is_judged(limit: &Limit) -> bool {
     match limit.grade {
         Grade::Maximum | Grade::LowerPerformance => true,

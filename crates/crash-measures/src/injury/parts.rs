@@ -17,7 +17,7 @@ use crate::signal::ChannelClass::{Cfc180, Cfc600};
 use crate::signal::resultant;
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One};
 
-/// Measures of a chest that yields.
+/// Measures of a deformable chest.
 pub(super) const CHEST_PARTS: &[Definition] = &[
     measure("chest_deflection", "chest deflection", Metre, Cfc180, Readings::chest_deflection)
         .or_say("the thorax is rigid: it has no deflection and no viscous criterion")
@@ -36,7 +36,7 @@ pub(super) const CHEST_PARTS: &[Definition] = &[
     measure("pc_score", "PC score", One, Cfc180, Readings::pc_score),
 ];
 
-/// Measures of a blow from the side.
+/// Measures of a side impact.
 pub(super) const SIDE: &[Definition] = &[
     measure("rib_deflection", "deepest rib", Metre, Cfc180, |r| r.deepest(&r.several(3, Special::Rib)?))
         .brief()
@@ -98,18 +98,18 @@ const fn tibia_force(name: &'static str, label: &'static str, of: Make) -> Defin
 type Several = Vec<Vec<f64>>;
 
 impl Readings {
-    /// Signals of a kind, as many as there are of `most`; at least one.
+    /// Signals of a kind, up to `most`; at least one.
     pub(super) fn several(&self, most: u8, of: fn(u8) -> Special) -> Result<Several, Lack> {
         present((0..most).map(|i| self.special(of(i))))
     }
 
-    /// The sternum, or the points that a chest has.
+    /// The sternum, or the measuring points of a chest.
     fn chest_points(&self) -> Result<Several, Lack> {
         let points = ChestPoint::ALL.into_iter().map(Special::ChestPoint);
         present([Special::ChestDeflection].into_iter().chain(points).map(|which| self.special(which)))
     }
 
-    /// The worst of what each point of the chest gives.
+    /// The worst result of all points of the chest.
     fn worst_of_chest(
         &self,
         of: impl Fn(&[f64], f64) -> Result<Peak, crate::signal::SignalError>,
@@ -126,14 +126,14 @@ impl Readings {
         peaks.into_iter().reduce(|a, b| if b.value > a.value { b } else { a }).ok_or(Lack::Absent)
     }
 
-    /// The size of a person's chest, or of a dummy's that was made for such a blow.
+    /// Size of a person's chest, or of a dummy for this direction of impact.
     fn chest_size(&self, blow: Blow) -> Result<ChestSize, Lack> {
         let of_person = self.person.map(|person| ChestSize::of_person(person.chest_depth_m));
         let of_dummy = || ChestSize::of(self.options.dummy).filter(|_| self.options.dummy.blow() == blow);
         of_person.or_else(of_dummy).ok_or(Lack::NotOfDummy)
     }
 
-    /// Without limits and risks of dummies where it is of a person.
+    /// Without limits and risks of dummies if the chest is a person's.
     fn of_chest(&self, finding: Finding) -> Finding {
         match self.person {
             None => finding,
@@ -186,7 +186,7 @@ impl Readings {
         Ok(self.yardstick(at(score)))
     }
 
-    /// A criterion that only a dummy has: of a person it compares runs and says nothing of injury.
+    /// A criterion defined for dummies only: for a person it compares runs and implies no injury.
     fn yardstick(&self, finding: Finding) -> Finding {
         let words = "a criterion for dummies: for a person, use it only to compare runs";
         let remark = self.person.map(|_| words.to_owned()).or(finding.remark.clone());
@@ -216,7 +216,7 @@ impl Readings {
         Ok(resultant(&x?, &y?, &z?)?)
     }
 
-    /// The greater index of the load cells of a leg.
+    /// The larger index of the load cells of a leg.
     fn tibia_index(&self, sites: &[TibiaSite]) -> Result<Finding, Lack> {
         let loads = |site: &TibiaSite| {
             let of = |load| self.special(Special::Tibia(*site, load));
@@ -235,7 +235,7 @@ impl Readings {
     }
 }
 
-/// Those that are there; at least one.
+/// The values that are there; at least one.
 fn present<T>(all: impl Iterator<Item = Result<T, Lack>>) -> Result<Vec<T>, Lack> {
     let found = all.filter(|one| !matches!(one, Err(Lack::Absent))).collect::<Result<Vec<T>, Lack>>()?;
     if found.is_empty() { Err(Lack::Absent) } else { Ok(found) }

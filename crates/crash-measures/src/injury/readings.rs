@@ -40,12 +40,12 @@ pub struct Readings {
     pub(super) neck_n_m: Result<Components, SignalError>,
     /// Compression of the right and the left femur.
     pub(super) femur_n: [Result<Vec<f64>, SignalError>; 2],
-    /// Reading ahead of the head, CFC 60, and shear of the neck, CFC 600, as criteria of whiplash take them.
+    /// Forward reading of the head, CFC 60, and shear of the neck, CFC 600, as used by whiplash criteria.
     pub(super) head_ahead_m_s2: Result<Vec<f64>, SignalError>,
     pub(super) neck_shear_n: Result<Vec<f64>, SignalError>,
     special: BTreeMap<Special, Result<Vec<f64>, SignalError>>,
     pub(super) person: Option<Person>,
-    /// Largest values that are known better than from samples; times count from the first sample.
+    /// Peaks known more accurately than from samples; times are relative to the first sample.
     peaks: Option<Extremes>,
 }
 
@@ -53,7 +53,7 @@ pub struct Readings {
 #[derive(Clone, Debug)]
 pub struct Acceleration {
     pub(super) resultant_m_s2: Result<Vec<f64>, SignalError>,
-    /// Largest value; times count from the first sample.
+    /// Largest value; its time is relative to the first sample.
     pub peak: Result<Peak, SignalError>,
     /// Level held for 3 ms without interruption.
     pub three_ms_contiguous: Result<ThreeMs, SignalError>,
@@ -62,7 +62,7 @@ pub struct Acceleration {
 }
 
 impl Readings {
-    /// Filters the signals and finds the levels.
+    /// Filters the signals and computes the levels.
     pub fn new(signals: &Signals, options: &Options) -> Self {
         let dt_s = signals.interval_s;
         let one = |values: &[f64], class| filtered(values, dt_s, class, options.filtering);
@@ -98,17 +98,17 @@ impl Readings {
         }
     }
 
-    /// A signal that only some bodies read.
+    /// A signal recorded by some bodies only.
     pub(super) fn special(&self, which: Special) -> Result<Vec<f64>, Lack> {
         Ok(self.special.get(&which).ok_or(Lack::Absent)?.clone()?)
     }
 
-    /// Whether it is read.
+    /// Whether it is recorded.
     pub(super) fn has(&self, which: Special) -> bool {
         self.special.contains_key(&which)
     }
 
-    /// A largest value that is known better than from samples.
+    /// A peak known more accurately than from samples.
     pub(super) fn peak_of(&self, which: Extreme) -> Option<Peak> {
         peak_of(&self.peaks, which)
     }

@@ -46,13 +46,13 @@ pub(super) const WHIPLASH: &[Definition] = &[
 ];
 
 impl Readings {
-    /// Whether anything of a whiplash test is read, or its dummy is asked for.
+    /// Whether any whiplash signal is recorded, or a whiplash dummy is requested.
     fn is_rear(&self) -> Result<(), Lack> {
         let reads = [Special::T1, Special::HeadRestraint].iter().any(|which| self.has(*which));
         if reads || self.options.dummy.blow() == Blow::Rear { Ok(()) } else { Err(Lack::Absent) }
     }
 
-    /// The head's contact with its restraint, if that is read and there is one.
+    /// The head's contact with its restraint, if recorded and present.
     fn contact(&self) -> Result<Option<HeadContact>, Lack> {
         match self.special(Special::HeadRestraint) {
             Ok(force) => Ok(head_restraint_contact(&force, self.interval_s, &RestraintContact::default())?),
@@ -61,7 +61,7 @@ impl Readings {
         }
     }
 
-    /// Of T1 and of the head's reading ahead, both of class 60.
+    /// NIC of T1 and of the head's forward reading, both CFC 60.
     fn nic(&self) -> Result<Nic, Lack> {
         let t1 = self.special(Special::T1)?;
         let head = own(&self.head_ahead_m_s2)?;

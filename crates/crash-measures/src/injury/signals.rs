@@ -8,11 +8,11 @@ use crate::measure::Peak;
 /// Three components over time.
 pub type Components = [Vec<f64>; 3];
 
-/// The largest values of unfiltered signals where they are known better than from samples, in the order of [`Extreme`]; minus
-/// infinity of what a body lacks. Times as of the run.
+/// Peaks of unfiltered signals known more accurately than from samples, in the order of [`Extreme`]; −∞ for missing
+/// ones. Times are those of the run.
 pub type Extremes = [Peak; 10];
 
-/// Which signal a largest value is of.
+/// Signal of a peak.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extreme {
     /// Resultant acceleration of the head.
@@ -37,7 +37,7 @@ pub enum Extreme {
     LeftFemur,
 }
 
-/// Whose chest is read, if it is no dummy's.
+/// The person whose chest is recorded, if it is no dummy's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Person {
     /// Depth of the chest, m.
@@ -46,7 +46,7 @@ pub struct Person {
     pub age_years: Option<f64>,
 }
 
-/// Time histories at regular times, in SAE J211 axes of the segments (X ahead, Y right, Z down), SI.
+/// Time histories at regular intervals, in SAE J211 axes of the segments (X forward, Y right, Z down), SI.
 ///
 /// A last output before its regular time is left out: the measures need equal intervals.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -57,9 +57,9 @@ pub struct Signals {
     pub interval_s: f64,
     /// Accelerometer reading at the head's centre of gravity, m/s².
     pub head_m_s2: Components,
-    /// That of the upper torso, m/s².
+    /// Accelerometer reading of the upper torso, m/s².
     pub chest_m_s2: Components,
-    /// That of the lower torso, m/s².
+    /// Accelerometer reading of the lower torso, m/s².
     pub pelvis_m_s2: Components,
     /// Angular velocity of the head, rad/s.
     pub head_rad_s: Components,
@@ -71,17 +71,17 @@ pub struct Signals {
     pub neck_n_m: Components,
     /// Axial force of the right and the left femur, N: tension positive.
     pub femur_n: [Vec<f64>; 2],
-    /// What only some bodies and tests read, as long as the others. A body that has such an instrument has its signal here,
-    /// with samples or without: measures of it are listed then.
+    /// Signals of some bodies and tests only, as long as the others. A body with such an instrument has an entry, even
+    /// without samples: its measures are then listed.
     pub special: BTreeMap<Special, Vec<f64>>,
-    /// Whose chest it is: a dummy's where nobody is named, that of the dummy whose limits are asked for.
+    /// The person whose chest it is; none for the dummy of the limits.
     pub person: Option<Person>,
     /// Largest values between the samples, if they are known.
     pub peaks: Option<Extremes>,
 }
 
 impl Signals {
-    /// Nothing seen yet.
+    /// Signals without samples.
     pub fn new() -> Self {
         Signals::default()
     }
@@ -91,12 +91,12 @@ impl Signals {
         self.femur_n[0].len()
     }
 
-    /// Whether nothing was seen.
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Half of the samples, from `first` on.
+    /// Every other sample, from `first`.
     pub(super) fn every_other(&self, first: usize) -> Signals {
         let mut half = self.clone();
         half.interval_s *= 2.0;

@@ -5,17 +5,17 @@ use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
 use occupant_units::unit::Unit;
 use std::fmt;
 
-/// A signal that only some bodies and tests read. Deflections are positive inward; forces, moments and accelerations have the
-/// signs of SAE J1733.
+/// A signal recorded by some bodies and tests only. Deflections are positive inward; forces, moments and accelerations
+/// have the signs of SAE J1733.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Special {
     /// Deflection of the sternum, m.
     ChestDeflection,
     /// Deflection of a point of the chest, m.
     ChestPoint(ChestPoint),
-    /// Deflection of a rib of the chest from the side, m: 0 is the upper one, 2 the lower one.
+    /// Deflection of a chest rib in side impact, m: 0 is the upper one, 2 the lower one.
     Rib(u8),
-    /// Deflection of a rib of the abdomen from the side, m: 0 is the upper one.
+    /// Deflection of an abdominal rib in side impact, m: 0 is the upper one.
     AbdomenRib(u8),
     /// Force of a load cell of the abdomen, N: front, middle, rear.
     Abdomen(u8),
@@ -27,23 +27,23 @@ pub enum Special {
     Pelvis(u8),
     /// Acceleration of the lower spine (T12) along X, Y, Z, m/s².
     LowerSpine(u8),
-    /// Acceleration of T1 ahead, m/s².
+    /// Forward acceleration of T1, m/s².
     T1,
     /// Force between head and head restraint, N.
     HeadRestraint,
-    /// Speed ahead of the head against the vehicle, m/s.
+    /// Forward speed of the head relative to the vehicle, m/s.
     HeadSpeed,
-    /// Place ahead of the pelvis against the seat, m.
+    /// Forward position of the pelvis relative to the seat, m.
     PelvisPlace,
     /// Force of the lower neck along X, Y, Z, N.
     LowerNeckForce(u8),
     /// Moment of the lower neck about X, Y, N·m.
     LowerNeckMoment(u8),
-    /// A load of a load cell of a lower leg.
+    /// A load measured in a lower leg.
     Tibia(TibiaSite, TibiaLoad),
 }
 
-/// A point of the chest at which a THOR measures.
+/// A measuring point of a THOR's chest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChestPoint {
     /// Upper left.
@@ -69,7 +69,7 @@ pub enum TibiaSite {
     LeftLower,
 }
 
-/// What a load cell of a lower leg measures.
+/// Quantity measured by a load cell of a lower leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TibiaLoad {
     /// Moment about X, N·m.

@@ -15,7 +15,7 @@ use crate::signal::{
     whole_steps,
 };
 
-/// Which edition smooths how.
+/// Edition of the standard, which determines the smoothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AsiEdition {
     /// EN 1317-1:1998, 50 ms average.
@@ -36,7 +36,7 @@ pub enum SeverityClass {
 }
 
 impl SeverityClass {
-    /// The class of an index; none above 1.9. THIV is limited too and not looked at here.
+    /// The class of an index; none above 1.9. The limit on THIV is not checked here.
     #[must_use]
     pub fn of(asi: f64) -> Option<Self> {
         [(1.0, Self::A), (1.4, Self::B), (1.9, Self::C)].into_iter().find(|(most, _)| asi <= *most).map(|(_, c)| c)
@@ -46,7 +46,7 @@ impl SeverityClass {
 /// ASI over time with its maximum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asi {
-    /// The index (no unit) and its time: of the window's middle in the 1998 edition.
+    /// The maximum (no unit) and its time, the middle of the window in the 1998 edition.
     pub peak: Peak,
     /// ASI(t), at the samples (2010) or for windows that start at the samples (1998).
     pub history: Vec<f64>,
@@ -91,7 +91,7 @@ pub fn asi(
     Ok(Asi { peak, history })
 }
 
-/// Half a second of the mean of 50 ms, the window of the 1998 edition.
+/// Continuation of a record by half a second at the mean of its last 50 ms, the window of the 1998 edition.
 fn continuation(dt_s: f64) -> Continuation {
     Continuation::HoldMean { samples: whole_steps(0.5, dt_s), of: whole_steps(0.05, dt_s) }
 }
@@ -107,8 +107,8 @@ impl Asi {
         Ok(peak)
     }
 
-    /// How far the index of the 2010 edition still stands at the end of the record, as a part of its maximum: what comes after the end is not
-    /// known, and the maximum may come with it.
+    /// The index of the 2010 edition at the end of the record, as a fraction of its maximum: if large, the true maximum
+    /// may be after the end.
     pub fn left_at_end(&self) -> f64 {
         self.history.last().map_or(0.0, |last| last / self.peak.value.max(f64::MIN_POSITIVE))
     }

@@ -30,7 +30,7 @@ impl BricBasis {
     }
 }
 
-/// Brain injury criterion with the peaks it is made of.
+/// Brain injury criterion with its peaks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bric {
     /// The criterion, without unit.

@@ -14,7 +14,7 @@ const DAMPING_TIME_S: f64 = 5.9148e-3;
 const SCALE: f64 = 2.9903;
 /// The stiffest mode turns at about 184 rad/s; this step keeps the peak within 1e−7 (see the tests).
 const LONGEST_STEP_S: f64 = 2.5e-4;
-/// A record coarser than this says nothing about a head impact.
+/// Longest sample interval for a head impact, s.
 const LONGEST_INTERVAL_S: f64 = 0.02;
 
 /// DAMAGE (without unit) and its time, of angular accelerations in rad/s², head axes.

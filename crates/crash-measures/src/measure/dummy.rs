@@ -27,7 +27,7 @@ pub enum Dummy {
     BioRidIi,
 }
 
-/// The blow that a dummy was made for. Criteria of another blow mean nothing for it.
+/// Direction of impact that a dummy was designed for. Criteria of another direction are meaningless for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Blow {
     /// From the front.
@@ -73,7 +73,7 @@ impl Dummy {
         self.row().1
     }
 
-    /// The blow that it was made for.
+    /// Its direction of impact.
     #[must_use]
     pub fn blow(self) -> Blow {
         self.row().2

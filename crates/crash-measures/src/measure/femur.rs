@@ -22,7 +22,7 @@ impl DurationLimit {
     /// Femur compression of UN R94, N.
     pub const FEMUR_R94_N: Self = Self { at_once: 9070.0, settled: 7580.0, settled_s: 0.010 };
 
-    /// The limit for a load that lasts `duration_s`.
+    /// The limit for a load of duration `duration_s`.
     #[must_use]
     pub fn at(&self, duration_s: f64) -> f64 {
         let part = (duration_s / self.settled_s).clamp(0.0, 1.0);
@@ -41,7 +41,7 @@ pub struct DurationUse {
     pub level: f64,
 }
 
-/// How far a load (positive in the limited direction) uses a limit that falls with duration.
+/// Utilisation of a limit that falls with duration, by a load positive in the limited direction.
 ///
 /// Twenty-one durations from zero to `settled_s` are compared; longer ones cannot be worse.
 ///

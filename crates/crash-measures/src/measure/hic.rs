@@ -92,7 +92,7 @@ struct Search<'a> {
 }
 
 /// A rising or falling interval of the line as functions of its level h: t = time + slowness·h, ∫ a dt = integral +
-/// ½·slowness·h². At an end of the record the slowness is 0: every level up to the end value stands there.
+/// ½·slowness·h². At an end of the record the slowness is 0: all levels up to the end value are at that time.
 #[derive(Clone, Copy)]
 struct Flank {
     slowness: f64,
@@ -129,7 +129,7 @@ impl<'a> Search<'a> {
         self.best
     }
 
-    /// Takes a window if it is the best so far.
+    /// Keeps a window if it is the best so far.
     fn offer(&mut self, start_s: f64, end_s: f64) {
         let tried = hic_of_window(&self.integral, start_s, end_s);
         if tried.value > self.best.value {
@@ -157,8 +157,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Tries windows from sample `start` to samples `stride` apart, and those whose ends stand on the flanks before and
-    /// after, which reach at most one interval farther at each end; skips what cannot win.
+    /// Tries windows from sample `start` to samples `stride` apart, and those whose ends are on the flanks before and
+    /// after, which extend by at most one interval at each end; skips windows that cannot win.
     fn try_start(&mut self, start: usize, stride: usize) {
         let one_interval = self.peak * self.dt_s;
         let rise = self.flank(start, start.checked_sub(1));
@@ -181,7 +181,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The flank from sample `top` down to the sample beside it, or the end of the record; none if it is no way down, or too
+    /// The flank from sample `top` down to its neighbour, or the end of the record; none if it does not fall, or is too
     /// flat for the end of a best window, where |ȧ| ≥ 0.4·h/τ.
     fn flank(&self, top: usize, beside: Option<usize>) -> Option<Flank> {
         let highest = self.a[top];

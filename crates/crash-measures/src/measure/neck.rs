@@ -33,8 +33,8 @@ impl NeckIntercepts {
     pub const HYBRID_III_5F_OUT_OF_POSITION: Self =
         Self { tension_n: 3880.0, compression_n: 3880.0, flexion_nm: 155.0, extension_nm: 61.0 };
 
-    /// The in-position intercepts of a dummy; none of one made for another blow, which has no Nij. Those of the Hybrid III
-    /// 95M are generally known, the others were read in a program that cites the rules.
+    /// In-position intercepts of a dummy; none for a dummy of another direction, which has no Nij. Those of the Hybrid
+    /// III 95M are from memory, the others from a program that cites the rules.
     #[must_use]
     pub fn of(dummy: Dummy) -> Option<Self> {
         let [tension_n, compression_n, flexion_nm, extension_nm] = match dummy {
@@ -66,12 +66,11 @@ pub enum NeckMode {
 pub struct Nij {
     /// The largest value, without unit.
     pub value: f64,
-    /// Where it stands, s.
+    /// Its time, s.
     pub time_s: f64,
     /// The combination it belongs to.
     pub mode: NeckMode,
-    /// Largest value of each combination in the order N_tf, N_te, N_cf, N_ce; zero where the signs
-    /// never meet.
+    /// Largest value of each combination in the order N_tf, N_te, N_cf, N_ce; zero if its signs never coincide.
     pub by_mode: [f64; 4],
 }
 

@@ -13,7 +13,7 @@ const TOTAL_M: f64 = 0.065 + 0.235;
 /// Occupant load criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Olc {
-    /// The even deceleration, m/s².
+    /// The constant deceleration, m/s².
     pub olc_mps2: f64,
     /// End of the free flight t₁, s.
     pub free_flight_end_s: f64,

@@ -35,8 +35,8 @@ pub fn largest_magnitude(values: &[f64], dt_s: f64) -> Result<Peak, SignalError>
     extreme(values, dt_s, f64::abs)
 }
 
-/// The largest sample in the direction of `sign`, as a positive number, such as a compression among forces that count
-/// tension positive; 0 where all samples lie in the other direction.
+/// The largest sample in the direction of `sign`, as a positive number, such as a compression where tension is
+/// positive; 0 if all samples have the other sign.
 ///
 /// # Errors
 /// As [`maximum`].

@@ -14,12 +14,12 @@
 use crate::signal::{CumulativeIntegral, MovingAverage, SignalError, WindowExtreme, require_same_length, resultant2};
 use occupant_units::trig;
 
-/// Where the head starts and how far it may fly.
+/// Initial position of the head and its flail distances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadFlight {
-    /// Head ahead of the c.g. at the start, X₀, m.
+    /// Initial position of the head forward of the c.g., X₀, m.
     pub start_x_m: f64,
-    /// Head to the right of the c.g. at the start, Y₀, m.
+    /// Initial position of the head to the right of the c.g., Y₀, m.
     pub start_y_m: f64,
     /// Free distance forward, D_x, m.
     pub forward_m: f64,
@@ -41,7 +41,7 @@ pub struct Thiv {
     pub speed_mps: f64,
     /// Time of the impact T, s.
     pub impact_s: f64,
-    /// Place of the head in the vehicle at T: x_b, y_b, m.
+    /// Position of the head in the vehicle at T: x_b, y_b, m.
     pub place_m: [f64; 2],
     /// Velocity of the head relative to the vehicle at T, vehicle axes: V_x, V_y, m/s.
     pub velocity_mps: [f64; 2],
@@ -51,7 +51,7 @@ pub struct Thiv {
 }
 
 impl Thiv {
-    /// THIV as it is quoted, km/h.
+    /// THIV in its usual unit, km/h.
     #[must_use]
     pub fn speed_kmh(&self) -> f64 {
         3.6 * self.speed_mps
@@ -120,7 +120,7 @@ fn head_motion(
     Ok((0..ax_mps2.len()).map(head).collect())
 }
 
-/// Time and head state at the first contact, by straight lines between samples.
+/// Time and head state at the first contact, interpolated linearly between samples.
 fn first_contact(heads: &[[f64; 4]], dt_s: f64, flight: HeadFlight) -> Result<(f64, [f64; 4]), SignalError> {
     // distance still free to each surface; a surface is met where it falls to zero
     let free = |head: &[f64; 4]| {

@@ -9,8 +9,8 @@
 use super::{Dummy, Peak, peak::peak_towards};
 use crate::signal::{STANDARD_GRAVITY_MPS2, SignalError, require_positive, require_same_length, require_samples};
 
-/// Scaling factor and deformation constant of a chest for the viscous criterion; the constant is the chest's depth from the
-/// front, or half of its breadth from the side.
+/// Scaling factor and deformation constant of a chest for the viscous criterion; the constant is the chest's depth in
+/// frontal impact, half of its breadth in side impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChestSize {
     /// Scaling factor s, without unit.
@@ -27,7 +27,7 @@ impl ChestSize {
     /// Hybrid III 95M.
     pub const HYBRID_III_95M: Self = Self { scale: 1.3, depth_m: 0.254 };
 
-    /// The constants of a dummy; none of one for which none are known (THOR and BioRID have no viscous criterion).
+    /// The constants of a dummy; none if unknown (THOR and BioRID have no viscous criterion).
     #[must_use]
     pub fn of(dummy: Dummy) -> Option<Self> {
         let of_ribs = |depth_m| Some(Self { scale: 1.0, depth_m });
@@ -42,19 +42,20 @@ impl ChestSize {
         }
     }
 
-    /// Those of a person: scale 1 and his own depth, m. The criterion was found on people so (Lau and Viano 1986).
+    /// The constants of a person: scale 1 and his own depth, m, as in the derivation of the criterion (Lau and Viano
+    /// 1986).
     #[must_use]
     pub fn of_person(depth_m: f64) -> Self {
         Self { scale: 1.0, depth_m }
     }
 }
 
-/// A largest deflection, in metres and as a part of the depth.
+/// A largest deflection, in metres and as a fraction of the depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compression {
-    /// Largest deflection inward, m; 0 of a chest that only bulges.
+    /// Largest deflection inward, m; 0 if the chest only bulges.
     pub deflection: Peak,
-    /// The same over the depth, without unit.
+    /// Deflection over depth, without unit.
     pub share: f64,
 }
 
@@ -69,10 +70,10 @@ pub fn compression(deflection_m: &[f64], dt_s: f64, depth_m: f64) -> Result<Comp
     Ok(Compression { deflection, share: deflection.value / depth_m })
 }
 
-/// The rib that goes in deepest, and how deep.
+/// The most deflected rib, and its deflection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeepestRib {
-    /// Its place in the list.
+    /// Index in the list.
     pub rib: usize,
     /// Largest deflection inward, m.
     pub deflection: Peak,
@@ -101,7 +102,7 @@ fn rates(d: &[f64], dt_s: f64) -> impl Iterator<Item = (usize, f64)> {
     (2..d.len() - 2).map(move |i| (i, (8.0 * (d[i + 1] - d[i - 1]) - (d[i + 2] - d[i - 2])) / (12.0 * dt_s)))
 }
 
-/// Largest rate of deflection inward, m/s; 0 of a chest that only goes out.
+/// Largest rate of deflection inward, m/s; 0 if the chest only moves outward.
 ///
 /// # Errors
 /// Fewer than five samples, a sample that is not finite, an interval that is not positive.
@@ -132,7 +133,7 @@ fn greatest(values: impl Iterator<Item = (usize, f64)>, dt_s: f64) -> Peak {
     })
 }
 
-/// Acceleration and deflection that each alone make a combined thoracic index of 1.
+/// Acceleration and deflection that each alone give a combined thoracic index of 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThoracicIntercepts {
     /// A_int, m/s².
@@ -145,7 +146,7 @@ impl ThoracicIntercepts {
     /// Hybrid III 50M: 90 g and 103 mm. Those of other dummies were not found.
     pub const HYBRID_III_50M: Self = Self { acceleration_mps2: 90.0 * STANDARD_GRAVITY_MPS2, deflection_m: 0.103 };
 
-    /// Those of a dummy, if they are known.
+    /// The intercepts of a dummy, if known.
     #[must_use]
     pub fn of(dummy: Dummy) -> Option<Self> {
         (dummy == Dummy::HybridIii50M).then_some(Self::HYBRID_III_50M)

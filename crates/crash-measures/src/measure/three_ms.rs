@@ -61,7 +61,7 @@ enum Counting {
     Cumulative,
 }
 
-/// Time at or above a level: one uninterrupted interval, or all of them added up.
+/// Time at or above a level: one uninterrupted interval, or the sum of all.
 #[derive(Clone, Copy)]
 struct Above {
     start_s: f64,

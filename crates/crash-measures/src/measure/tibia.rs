@@ -7,13 +7,13 @@
 use super::{Dummy, Peak, peak::maximum};
 use crate::signal::{SignalError, require_positive, require_same_length, require_samples};
 
-/// Distance, m, by which a tension in the bent tibia of a Hybrid III makes a moment M_y at the upper load cell (Zuby et al.):
-/// M_y of a straight one is M_y − 28.32 mm·F_z.
+/// Moment arm, m, of a tension in the bent tibia of a Hybrid III at the upper load cell (Zuby et al.): M_y of a
+/// straight tibia is M_y − 28.32 mm·F_z.
 pub const UPPER_OFFSET_M: f64 = 0.028_32;
 /// The same at the lower load cell: M_y + 6.398 mm·F_z.
 pub const LOWER_OFFSET_M: f64 = -0.006_398;
 
-/// Bending moment and axial force that each alone make an index of 1.
+/// Bending moment and axial force that each alone give an index of 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TibiaCriticals {
     /// M_c, N·m.
@@ -26,8 +26,8 @@ impl TibiaCriticals {
     /// Revised index of a 50th percentile male (Kuppa et al. 2001).
     pub const REVISED_50M: Self = Self { moment_nm: 240.0, force_n: 12_000.0 };
 
-    /// Those of the index of a dummy; none of one that has no load cells in its legs for it. The values of the Hybrid III
-    /// 95M are generally known, the others were read in a program that cites Euro NCAP TB-021.
+    /// Critical values of a dummy; none if it has no such load cells. The values of the Hybrid III 95M are from memory,
+    /// the others from a program that cites Euro NCAP TB-021.
     #[must_use]
     pub fn of(dummy: Dummy) -> Option<Self> {
         match dummy {
@@ -65,7 +65,8 @@ pub fn tibia_index(
     maximum(&values, dt_s)
 }
 
-/// Moment M_y of a straight tibia, N·m, of that of a bent one: M_y − d·F_z, with [`UPPER_OFFSET_M`] or [`LOWER_OFFSET_M`].
+/// Moment M_y of a straight tibia, N·m, from that of a bent one: M_y − d·F_z, with [`UPPER_OFFSET_M`] or
+/// [`LOWER_OFFSET_M`].
 ///
 /// # Errors
 /// Signals of different length.

@@ -49,7 +49,7 @@ impl ChannelClass {
     }
 }
 
-/// Which family of coefficients.
+/// Family of filter coefficients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum CfcFamily {
     /// Corner 2.08333·CFC.
@@ -59,7 +59,7 @@ pub enum CfcFamily {
     SaeJ211,
 }
 
-/// The pass of a class for samples `dt_s` apart.
+/// One filter pass of a class for samples `dt_s` apart.
 ///
 /// # Errors
 /// An interval that is not positive, or too long for the class.

@@ -4,7 +4,7 @@ use super::SignalError;
 
 /// Largest magnitude accepted: no signal is larger, and powers and integrals of it stay finite.
 const LARGEST: f64 = 1e100;
-/// Sample intervals accepted, s.
+/// Range of accepted sample intervals, s.
 const INTERVALS_S: std::ops::RangeInclusive<f64> = 1e-12..=1e6;
 
 /// The interval of a uniform time vector, s.
@@ -31,7 +31,7 @@ pub fn uniform_interval(time_s: &[f64]) -> Result<f64, SignalError> {
     Ok(dt_s)
 }
 
-/// How many whole intervals of `dt_s` fit in `duration_s`, forgiving rounding of 1e−9 intervals.
+/// Number of whole intervals `dt_s` in `duration_s`, with a tolerance of 1e−9 intervals.
 ///
 /// Zero where either is not a positive number.
 #[must_use]

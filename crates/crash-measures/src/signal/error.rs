@@ -1,6 +1,6 @@
 //! Checks of a signal, with what was found and what was needed.
 
-/// Why a signal cannot be used.
+/// Reason why a signal cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {

@@ -4,7 +4,7 @@
 use super::smooth::weight;
 use std::f64::consts::PI;
 
-/// A time in which samples are missing.
+/// A gap in the samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hole {
     /// Index of the last sample before it.
@@ -16,23 +16,23 @@ pub struct Hole {
 }
 
 impl Hole {
-    /// How long it is, s.
+    /// Duration of the gap, s.
     #[must_use]
     pub fn length_s(&self) -> f64 {
         self.to_s - self.from_s
     }
 }
 
-/// Samples that stand on the largest or least value of a signal, as a sensor's do at the end of its range.
+/// Samples at the largest or least value of a signal, as of a sensor at the end of its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plateau {
     /// The value.
     pub value: f64,
-    /// How many samples have it.
+    /// Number of samples with this value.
     pub samples: usize,
     /// Index of the first of the longest run.
     pub first: usize,
-    /// Samples of the longest run.
+    /// Number of samples in the longest run.
     pub longest: usize,
 }
 
@@ -44,7 +44,8 @@ pub fn usual_interval(time_s: &[f64]) -> f64 {
     steps.get(steps.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// The holes in times that increase: where most intervals are equal, those half as long again; elsewhere, those ten times the usual one.
+/// Gaps in increasing times: where most intervals are equal, those 1.5 times as long; elsewhere, those ten times the
+/// usual one.
 #[must_use]
 pub fn holes(time_s: &[f64]) -> Vec<Hole> {
     let usual_s = usual_interval(time_s);
@@ -55,8 +56,8 @@ pub fn holes(time_s: &[f64]) -> Vec<Hole> {
     wide.map(|(after, _)| Hole { after, from_s: time_s[after], to_s: time_s[after + 1] }).collect()
 }
 
-/// The times with their holes filled at the usual interval, and the values there by straight lines; values that are not finite are bridged
-/// likewise. None is added beyond the ends.
+/// Times with gaps filled at the usual interval, and values interpolated linearly; non-finite values are filled
+/// likewise. Nothing is added beyond the ends.
 #[must_use]
 pub fn bridged(time_s: &[f64], channels: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let usual_s = usual_interval(time_s);
@@ -73,7 +74,7 @@ pub fn bridged(time_s: &[f64], channels: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>
     (filled, values)
 }
 
-/// Values at other times of the same span, by straight lines between those that are finite.
+/// Values at other times of the same span, interpolated linearly between finite ones.
 fn at_times(time_s: &[f64], values: &[f64], wanted_s: &[f64]) -> Vec<f64> {
     let known: Vec<(f64, f64)> =
         time_s.iter().copied().zip(values.iter().copied()).filter(|(_, v)| v.is_finite()).collect();
@@ -91,8 +92,9 @@ fn at_times(time_s: &[f64], values: &[f64], wanted_s: &[f64]) -> Vec<f64> {
     wanted_s.iter().map(value).collect()
 }
 
-/// The level on which a signal seems to be cut off: its largest or least value, if three samples in a row have it and the signal comes to it
-/// and leaves it, within two samples, by more than twice its smallest step. None for what only begins or ends there.
+/// The level at which a signal appears clipped: its largest or least value, if three samples in a row have it and the
+/// signal reaches and leaves it, within two samples, by more than twice its smallest step. None if the plateau is at
+/// the start or the end.
 #[must_use]
 pub fn plateau(values: &[f64]) -> Option<Plateau> {
     let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 0.0);
@@ -124,8 +126,8 @@ pub fn plateau(values: &[f64]) -> Option<Plateau> {
     [most, least].into_iter().filter(is_far).find_map(of)
 }
 
-/// The decimal place that all values are rounded to, such as 0.001; none if it is finer than a millionth, or where second differences of
-/// the values are smaller than rounding makes them, as those of a straight line that happens to go through round numbers.
+/// Decimal resolution of all values, such as 0.001; none if it is finer than a millionth, or where second differences
+/// are smaller than rounding would make them, as on a straight line through round numbers.
 #[must_use]
 pub fn resolution(values: &[f64]) -> Option<f64> {
     let fits =
@@ -137,8 +139,8 @@ pub fn resolution(values: &[f64]) -> Option<f64> {
     (square > 0.05 * step * step).then_some(step)
 }
 
-/// What rounding to `resolution` leaves in the second derivative of the natural spline through samples `dt_s` apart, as a root mean square,
-/// in units of the values per s²; after the low-pass of [`smooth`](super::smooth()) if `cutoff_hz` is given.
+/// RMS noise that rounding to `resolution` causes in the second derivative of the natural spline through samples `dt_s`
+/// apart, in units of the values per s²; after the low-pass of [`smooth`](super::smooth()) if `cutoff_hz` is given.
 #[must_use]
 pub fn rounding_noise(resolution: f64, dt_s: f64, cutoff_hz: Option<f64>) -> f64 {
     const PARTS: usize = 512;

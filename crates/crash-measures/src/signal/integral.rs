@@ -83,7 +83,7 @@ impl<'a> CumulativeIntegral<'a> {
         second
     }
 
-    /// The second integral at `time_s`, given [`Self::second_at_samples`], clamped to the record; not a number with a list of
+    /// The second integral at `time_s`, given [`Self::second_at_samples`], clamped to the record; NaN for a list of
     /// another length.
     #[must_use]
     pub fn second_at(&self, second: &[f64], time_s: f64) -> f64 {

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, SQRT_2};
 /// Ratio of the corner of one pass to the −3 dB frequency of both passes together: (√2 − 1)^(−1/4).
 pub const TWO_PASS_CORNER_RATIO: f64 = 1.246_504_702_770_927;
 
-/// How a record is continued beyond its ends before filtering.
+/// Continuation of a record beyond its ends before filtering.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Continuation {
     /// Reflected in its end points: 2x₀ − xᵢ before, 2x_N − x_{N−i} after. Filter passes start from
@@ -23,11 +23,12 @@ pub enum Continuation {
         /// Samples added at each end, at most two million.
         samples: usize,
     },
-    /// The mean of the samples nearest to each end held, so that a record may end anywhere in a vibration. Filter passes start at rest on it.
+    /// The mean of the samples nearest to each end, held, so that a record may end at any phase of a vibration. Filter
+    /// passes start at rest on it.
     HoldMean {
         /// Samples added at each end, at most two million.
         samples: usize,
-        /// Samples whose mean it is, at most all.
+        /// Number of samples averaged, at most all.
         of: usize,
     },
 }
@@ -110,12 +111,12 @@ impl LowPass {
     }
 }
 
-/// Samples that `duration_s` spans, but no fewer than `least`.
+/// Number of samples in `duration_s`, at least `least`.
 pub(crate) fn padding_samples(duration_s: f64, dt_s: f64, least: usize) -> usize {
     whole_steps(duration_s, dt_s).max(least)
 }
 
-/// The record with its continuation, and how many samples were added before it.
+/// The record with its continuation, and the number of samples added before it.
 fn continued(values: &[f64], continuation: Continuation) -> (Vec<f64>, usize) {
     let (first, last) = (values[0], values[values.len() - 1]);
     match continuation {
@@ -134,7 +135,7 @@ fn continued(values: &[f64], continuation: Continuation) -> (Vec<f64>, usize) {
     }
 }
 
-/// The record between so many samples of one value before it and of another after it.
+/// The record with this many samples of one value before it and of another after it.
 fn held(values: &[f64], [before, after]: [f64; 2], samples: usize) -> (Vec<f64>, usize) {
     let samples = samples.min(2_000_000);
     let held = |value| std::iter::repeat_n(value, samples);

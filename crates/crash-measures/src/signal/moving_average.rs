@@ -15,7 +15,7 @@ pub struct MovingAverage<'a> {
     dt_s: f64,
 }
 
-/// The largest average and the window where it stands.
+/// The largest average and its window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WindowExtreme {
     /// The average with its sign, in the unit of the signal.

@@ -7,13 +7,13 @@
 
 use super::{SignalError, require_positive, require_same_length, require_samples, whole_steps};
 
-/// Most steps of a resampled record: measures of six channels take half a kilobyte for each.
+/// Largest number of steps of a resampled record: measures of six channels take half a kilobyte for each.
 const MOST_STEPS: usize = 1_500_000;
 
-/// Shape between samples.
+/// Interpolation between samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Straight lines.
+    /// Linear.
     Linear,
     /// Monotone cubics.
     MonotoneCubic,
@@ -24,7 +24,7 @@ pub enum Interpolation {
 pub struct Interpolant<'a> {
     time_s: &'a [f64],
     values: &'a [f64],
-    /// Slopes at the samples; none for straight lines.
+    /// Slopes at the samples; none for linear interpolation.
     slopes: Option<Vec<f64>>,
 }
 
@@ -65,8 +65,8 @@ impl<'a> Interpolant<'a> {
         }
     }
 
-    /// The derivative at `time_s`, unit of the values per second; at a corner of straight lines that
-    /// of the line to the right; beyond the ends that at the end.
+    /// The derivative at `time_s`, unit of the values per second; at a sample of a linear interpolant that of the line
+    /// to the right; beyond the ends that at the end.
     #[must_use]
     pub fn slope_at(&self, time_s: f64) -> f64 {
         let (i, h, s) = self.cell(time_s);
@@ -94,7 +94,7 @@ impl<'a> Interpolant<'a> {
         Ok((0..=steps).map(|i| self.value_at(start_s + i as f64 * dt_s)).collect())
     }
 
-    /// Interval index, its length and the place within it in 0..=1.
+    /// Index of the interval, its length, and the position in it, 0..=1.
     fn cell(&self, time_s: f64) -> (usize, f64, f64) {
         let after = self.time_s.partition_point(|&t| t <= time_s);
         let i = after.saturating_sub(1).min(self.time_s.len() - 2);
@@ -103,7 +103,7 @@ impl<'a> Interpolant<'a> {
     }
 }
 
-/// A uniform signal at another interval, by straight lines.
+/// A uniform signal at another interval, interpolated linearly.
 ///
 /// # Errors
 /// Fewer than two samples, a sample that is not finite, intervals that are not positive.

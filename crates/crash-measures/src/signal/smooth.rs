@@ -13,7 +13,7 @@ pub(super) fn weight(cutoff_hz: f64, dt_s: f64) -> f64 {
     (SQRT_2 - 1.0) / (lift * lift * lift * lift)
 }
 
-/// The values without what is faster than `cutoff_hz`, where they are 3 dB down.
+/// Low-pass filtered values, 3 dB down at `cutoff_hz`.
 ///
 /// # Errors
 /// Fewer than three values, different lengths, times that do not increase, a value that is not finite, a frequency that is not positive or not
@@ -38,14 +38,14 @@ pub fn smooth(time_s: &[f64], values: &[f64], cutoff_hz: f64) -> Result<Vec<f64>
     Ok(smoothed.iter().enumerate().map(|(i, z)| z + line(i)).collect())
 }
 
-/// Share of the time that is a sample's, over the usual interval.
+/// Time span of a sample, relative to the usual interval.
 fn share(time_s: &[f64], i: usize, usual_s: f64) -> f64 {
     let (before, after) = (i.saturating_sub(1), (i + 1).min(time_s.len() - 1));
     let halves = if before == i || after == i { 1.0 } else { 0.5 };
     halves * (time_s[after] - time_s[before]) / usual_s
 }
 
-/// The diagonal and the two beside it of H + λ Dᵀ W D, D the second divided differences.
+/// Diagonal and two upper bands of H + λ Dᵀ W D, D the second divided differences.
 fn bands(time_s: &[f64], weight: f64, usual_s: f64) -> Vec<[f64; 3]> {
     let mut bands: Vec<[f64; 3]> = (0..time_s.len()).map(|i| [share(time_s, i, usual_s), 0.0, 0.0]).collect();
     for i in 0..time_s.len() - 2 {
@@ -61,7 +61,7 @@ fn bands(time_s: &[f64], weight: f64, usual_s: f64) -> Vec<[f64; 3]> {
     bands
 }
 
-/// The solution z of the system with these bands and H y on its right side, by its Cholesky factors L D Lᵀ.
+/// Solution z of the banded system with right side H y, by its Cholesky factors L D Lᵀ.
 fn solved(mut bands: Vec<[f64; 3]>, rest: Vec<f64>, time_s: &[f64], usual_s: f64) -> Vec<f64> {
     let n = bands.len();
     let mut z: Vec<f64> = rest.iter().enumerate().map(|(i, y)| y * share(time_s, i, usual_s)).collect();

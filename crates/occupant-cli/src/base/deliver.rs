@@ -5,7 +5,7 @@ use std::path::Path;
 use super::talk::say;
 use super::{Failure, publish};
 
-/// Writes a file of results that carries its name only when it is complete, and says so.
+/// Writes a result file under a temporary name, renames it when complete, and reports it.
 ///
 /// # Errors
 /// As [`publish`].
@@ -13,7 +13,7 @@ pub(crate) fn deliver(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Fail
     deliver_and(false, path, force, bytes)
 }
 
-/// The same, and opens it with the program that the system has for such files if `open` says so.
+/// As [`deliver`]; with `open` the system's default program then opens the file.
 ///
 /// # Errors
 /// As [`publish`]. That it cannot be opened is said, and no failure.
@@ -23,7 +23,7 @@ pub(crate) fn deliver_and(open: bool, path: &Path, force: bool, bytes: &[u8]) ->
     Ok(())
 }
 
-/// Says that a file was written, and opens it if `open` says so.
+/// Reports that a file was written, and opens it with `open`.
 pub(crate) fn said_and_opened(open: bool, path: &Path) {
     say(&format!("wrote {}", path.display()));
     if open && let Err(error) = open::that(path) {

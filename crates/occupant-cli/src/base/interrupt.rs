@@ -7,8 +7,8 @@ use occupant_jobs::base::Interrupt;
 
 use super::talk::say;
 
-/// A file that grows beyond the limit of the process (`ulimit -f`) is a write that fails, which is told as any other, not the signal
-/// that ends the process without a word.
+/// Makes a file that exceeds the process's size limit (`ulimit -f`) a reported write error, instead of a signal that
+/// ends the process silently.
 pub(crate) fn survive_long_files() {
     #[cfg(unix)]
     {
@@ -18,8 +18,8 @@ pub(crate) fn survive_long_files() {
     }
 }
 
-/// Listens from now on, and answers a signal with these words, those of the first to listen. Where that is impossible a
-/// signal ends the process at once; what was written stays readable.
+/// Listens for signals from now on and answers with these words, those of the first to listen. Where that is
+/// impossible, a signal ends the process at once; written files stay readable.
 pub(crate) fn listen(words: &'static str) -> Interrupt {
     static LISTENING: OnceLock<Interrupt> = OnceLock::new();
     LISTENING.get_or_init(|| begin(words)).clone()

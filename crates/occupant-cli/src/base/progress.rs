@@ -15,27 +15,27 @@ use occupant_core::results::sample::Sample;
 use occupant_jobs::base::Show;
 use occupant_jobs::base::progress::Bar;
 
-/// A recorder that shows how far the run is.
+/// A recorder that shows the progress of a run.
 #[derive(Debug)]
 pub(crate) struct Progress {
     bar: ProgressBar,
 }
 
 impl Progress {
-    /// A bar on standard error where that is a terminal, else nothing.
+    /// A bar on standard error if that is a terminal, else nothing.
     pub(crate) fn new(quiet: bool) -> Self {
         Progress { bar: bar(None, &counted("outputs"), quiet) }
     }
 }
 
-/// Work that takes longer than this is not silent.
+/// Time after which work without a bar shows a line.
 const SILENT: Duration = Duration::from_secs(2);
 
-/// The line of work that has no bar.
+/// Status line of work without a bar.
 enum Line {
     NotYet,
     Shown(ProgressBar),
-    /// A bar or the result has come.
+    /// Replaced by a bar or the result.
     Over,
 }
 
@@ -45,7 +45,7 @@ fn line() -> MutexGuard<'static, Line> {
     LINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Shows a line with the time so far on a terminal, once this work has been silent for two seconds.
+/// Shows a line with the elapsed time on a terminal, after two seconds of silence.
 pub(crate) fn watch(work: String) {
     if !stderr().is_terminal() {
         return;
@@ -62,14 +62,14 @@ pub(crate) fn watch(work: String) {
     });
 }
 
-/// Takes the line away for good: a bar or the result comes.
+/// Removes the line for good, before a bar or the result.
 pub(crate) fn end_line() {
     if let Line::Shown(spinner) = mem::replace(&mut *line(), Line::Over) {
         spinner.finish_and_clear();
     }
 }
 
-/// Writes something to the terminal without disturbing the line.
+/// Writes to the terminal without disturbing the line.
 pub(crate) fn beside_line(write: impl FnOnce()) {
     match &*line() {
         Line::Shown(spinner) => spinner.suspend(write),
@@ -77,12 +77,12 @@ pub(crate) fn beside_line(write: impl FnOnce()) {
     }
 }
 
-/// A bar of many of `what`: how many, how fast, how long still, and what else is to be said.
+/// Template of a bar that counts `what`: number, rate, remaining time, remarks.
 pub(crate) fn counted(what: &str) -> String {
     format!("{{bar:30}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} to go{{msg}}")
 }
 
-/// A bar on standard error where that is a terminal, else nothing.
+/// A bar on standard error if that is a terminal, else nothing.
 pub(crate) fn bar(length: Option<u64>, template: &str, quiet: bool) -> ProgressBar {
     end_line();
     styled(length, template, quiet)
@@ -101,7 +101,7 @@ fn styled(length: Option<u64>, template: &str, quiet: bool) -> ProgressBar {
     bar
 }
 
-/// The same for jobs.
+/// Progress bar for jobs.
 struct Terminal(ProgressBar);
 
 impl Bar for Terminal {
@@ -126,7 +126,7 @@ impl Bar for Terminal {
     }
 }
 
-/// What a job shows on standard error.
+/// Progress display of a job on standard error.
 pub(crate) fn show(quiet: bool) -> Show {
     Show {
         quiet,

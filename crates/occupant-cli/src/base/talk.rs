@@ -11,8 +11,8 @@ use occupant_jobs::base::{Failure, talk};
 
 use super::progress::{beside_line, end_line};
 
-/// Whether the process began with its standard output closed. The standard library opens `/dev/null` in its place before
-/// `main`, so that what is written is lost and nobody hears of it.
+/// Whether the process started with its standard output closed. The standard library opens `/dev/null` in its place
+/// before `main`, so that writing to it fails silently.
 static CLOSED: AtomicBool = AtomicBool::new(false);
 
 ctor::declarative::ctor! {
@@ -23,7 +23,7 @@ ctor::declarative::ctor! {
     }
 }
 
-/// Writes a result, its control characters escaped. A reader that has gone away is no failure.
+/// Prints a result with control characters escaped. A closed pipe is no error.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let text = plain(text);
     print_file(
@@ -31,10 +31,10 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     )
 }
 
-/// The word for a limit that is not kept.
+/// Verdict of an exceeded limit.
 const BEYOND: &str = "EXCEEDED";
 
-/// Whether standard output is a terminal with colours, as <https://no-color.org> and `CLICOLOR_FORCE` say it.
+/// Whether standard output is a terminal with colours, by <https://no-color.org> and `CLICOLOR_FORCE`.
 fn has_colours() -> bool {
     let says = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let is_forced = says("CLICOLOR_FORCE") && std::env::var_os("CLICOLOR_FORCE").is_some_and(|value| value != "0");
@@ -42,13 +42,13 @@ fn has_colours() -> bool {
     !says("NO_COLOR") && (is_forced || (stdout().is_terminal() && !is_dumb))
 }
 
-/// Writes the bytes of a file, as they are. A reader that has gone away is no failure.
+/// Prints the bytes of a file unchanged. A closed pipe is no error.
 pub(crate) fn print_file(bytes: &[u8]) -> Result<(), Failure> {
     end_line();
     written(stdout().write_all(bytes))
 }
 
-/// What became of a result that was written to standard output.
+/// Outcome of writing a result to standard output.
 pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
     let open = if CLOSED.load(Ordering::Relaxed) { Err(io::Error::other("it is closed")) } else { Ok(()) };
     match open.and(result).and_then(|()| stdout().flush()) {
@@ -59,14 +59,14 @@ pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
-/// Writes a message to standard error, its control characters escaped. That it cannot be written is no failure.
+/// Prints a message to standard error with control characters escaped. Write errors are ignored.
 pub(crate) fn say(text: &str) {
     beside_line(|| {
         let _unwritten = writeln!(stderr().lock(), "{}", plain(text));
     });
 }
 
-/// Writes what jobs say while they work to standard error.
+/// Prints messages of jobs to standard error.
 struct Voice;
 
 impl log::Log for Voice {
@@ -83,7 +83,7 @@ impl log::Log for Voice {
     fn flush(&self) {}
 }
 
-/// From now on what jobs say is written to standard error, and their tables fit the terminal.
+/// Sends messages of jobs to standard error from now on, and fits their tables to the terminal.
 pub(crate) fn hear_jobs() {
     if let Some((terminal_size::Width(columns), _)) = terminal_size::terminal_size_of(stdout()) {
         fit_terminal(columns);

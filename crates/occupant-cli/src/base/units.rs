@@ -19,7 +19,7 @@ pub(crate) struct UnitsArg {
 }
 
 impl UnitsArg {
-    /// The units asked for, or those of a scenario.
+    /// The requested units, else those of a scenario.
     pub(crate) fn or(self, scenario: Option<UnitSystem>) -> Units {
         Units::asked(self.units, scenario)
     }

@@ -64,13 +64,13 @@ pub(crate) fn channels(args: &Args) -> Result<(), Failure> {
     talk::print(&table.text())
 }
 
-/// Whether a word is the name of a file that channels can be listed of.
+/// Whether a word names a file whose channels can be listed.
 fn is_file(word: &str) -> bool {
     let path = Path::new(word);
     path.is_file() || by_ending(path, &[("mcap", ()), ("toml", ()), ("json", ())]).is_some()
 }
 
-/// What the measure is called that this word names, with a number behind it or without.
+/// Label of the measure that a word means, with or without a number after it.
 fn measure(word: &str) -> Option<&'static str> {
     let all = assess(&Signals::new(), &Options::default());
     let is_it = |measure: &Measure| {

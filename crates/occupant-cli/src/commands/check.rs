@@ -18,6 +18,10 @@ pub(crate) struct Args {
     #[command(flatten)]
     units: UnitsArg,
 
+    /// Also print masses and lengths of segments, friction, and time scales
+    #[arg(long)]
+    all: bool,
+
     /// Print JSON instead of tables, in SI units
     #[arg(long)]
     json: bool,
@@ -27,7 +31,7 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-/// All that is printed as JSON.
+/// The JSON answer.
 #[derive(serde::Serialize)]
 struct Told<'a> {
     #[serde(flatten)]
@@ -49,7 +53,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     if args.json {
         talk::print(&crate::base::json(&Told { diagnosis: &diagnosis, car: opened.loaded.dimensions() })?)?;
     } else if !args.quiet {
-        talk::print(&check_text(&diagnosis, &opened.loaded.dimensions(), units))?;
+        talk::print(&check_text(&diagnosis, &opened.loaded.dimensions(), units, args.all))?;
     }
     for behind in &diagnosis.behind {
         say(&format!(
@@ -61,7 +65,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     }
     for open in &diagnosis.open_ahead {
         say(&format!(
-            "warning: the body of {} has no belt and nothing ahead of it, but its vehicle loses {}: the head will hit nothing\n = help: add an instrument panel and a windscreen, or a belt",
+            "warning: the body of {} has no belt and nothing in front of it, but the vehicle loses {}: the head will strike nothing\n = help: add an instrument panel and a windscreen, or a belt",
             open.sphere,
             units.say(open.loss_m_s, "m/s", 1)
         ));
@@ -85,12 +89,12 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     }
 }
 
-/// What to warn of a belt that does not lie on the shoulder once it pulls.
+/// Warning about a shoulder belt that leaves the shoulder under load; none if it stays.
 fn off_shoulder(own: &ShoulderBelt) -> Option<String> {
     let seen = match own.lies {
         OnShoulder::Bears => return None,
         OnShoulder::LiftedOff => {
-            "pulls away from the shoulder as it tightens: it will bear on the chest alone\n = help: move the D-ring down or back"
+            "lifts off the shoulder as it tightens: it will load only the chest\n = help: move the D-ring down or back"
         }
         OnShoulder::SlidOff => "slides off the shoulder towards the arm\n = help: move the D-ring or the buckle inward",
         OnShoulder::AtNeck => {
@@ -100,7 +104,7 @@ fn off_shoulder(own: &ShoulderBelt) -> Option<String> {
     Some(format!("warning: belt {} over {} {seen}", own.belt, own.part))
 }
 
-/// What to say of a step that is too long for the fastest rate.
+/// Error message of a step too long for the fastest time scale; none if it is stable.
 pub(super) fn too_long(diagnosis: &Diagnosis) -> Option<String> {
     let (step_s, fastest) = (diagnosis.run.step_s?, diagnosis.fastest.as_ref()?);
     if diagnosis.step_is_stable() {

@@ -77,7 +77,7 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-/// How a body that a deck seats begins.
+/// Initial position of a body that the deck seats.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Seating {
     /// The whole body is moved until its contacts carry its weight
@@ -95,7 +95,7 @@ impl From<Seating> for DeckSeating {
     }
 }
 
-/// Converts in the direction that the ending of the input gives.
+/// Converts in the direction given by the input's extension.
 pub(crate) fn convert(args: &Args) -> Result<(), Failure> {
     let bytes = deck(&args.input)?;
     let is_deck = ending(&args.input) != "mcap" && format_of(&args.input).is_none();
@@ -150,7 +150,7 @@ fn decks_to_scenarios(
     report(args, &reports)
 }
 
-/// The decks of a file; what is wrong with them is said.
+/// The decks of a file; their problems are printed.
 fn decks(args: &Args, bytes: &[u8]) -> Result<Vec<Deck>, Failure> {
     let strictness = match (args.strict, args.lenient) {
         (true, _) => Strictness::Strict,
@@ -167,7 +167,7 @@ fn decks(args: &Args, bytes: &[u8]) -> Result<Vec<Deck>, Failure> {
     Ok(decks)
 }
 
-/// The path of a deck with MREAD ≠ 0. A CSV file in the folder of the scenario is referred to, any other is written out.
+/// The path of a deck with MREAD ≠ 0. A CSV file in the scenario's folder is referred to, any other is included.
 fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>, Failure> {
     let Some(file) = &args.path else {
         return Ok(None);
@@ -218,7 +218,7 @@ fn scenario_to_deck(
     Deck::from_scenario(&loaded, layout).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))
 }
 
-/// Writes a deck, and says its remarks.
+/// Writes a deck and prints its remarks.
 fn deliver_deck(args: &Args, cards: FromScenario) -> Result<(), Failure> {
     let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
@@ -239,7 +239,7 @@ fn deliver(args: &Args, output: Option<&Path>, bytes: &[u8]) -> Result<(), Failu
     }
 }
 
-/// Writes a file; one that exists is left alone unless it may be replaced, and what is read always is.
+/// Writes a file. An existing file needs `force`; an input is never replaced.
 fn write(args: &Args, file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     for input in [Some(&args.input), args.path.as_ref(), args.compartment.as_ref()].into_iter().flatten() {
         refuse_input(file, input)?;
@@ -247,7 +247,7 @@ fn write(args: &Args, file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     publish(file, args.force, bytes)
 }
 
-/// Says the report, and writes it where it was asked for.
+/// Prints the conversion report, and writes it to a file if asked.
 fn report(args: &Args, text: &str) -> Result<(), Failure> {
     if !args.quiet {
         say(text.trim_end());

@@ -8,7 +8,7 @@ use occupant_jobs::drive::{Driven, columns, film, json, path_columns, plan, text
 use occupant_jobs::files::scenario::{self, ScenarioArgs};
 use occupant_pictures::Format;
 
-/// Pixels of a user unit of a plan.
+/// Pixels of a plan per drawing unit.
 const PIXELS: f64 = 2.0;
 
 /// Drive the vehicles of a scenario without simulating the people

@@ -28,7 +28,7 @@ pub(crate) struct Args {
     markdown: bool,
 }
 
-/// Tells of a key.
+/// Explains a key.
 pub(crate) fn explain(args: &Args) -> Result<(), Failure> {
     let root = Key::root(args.of.schema());
     if args.markdown {
@@ -46,13 +46,13 @@ pub(crate) fn explain(args: &Args) -> Result<(), Failure> {
 #[derive(Clone)]
 struct Key<'a> {
     path: String,
-    /// Of which kind of its section, such as `kind = "pulse"`.
+    /// Variant of its section that it belongs to, such as `kind = "pulse"`.
     variant: Option<String>,
     needed: bool,
     root: &'a Json,
-    /// What the schema says at its place.
+    /// Its own schema entry.
     own: &'a Json,
-    /// The table that it stands in.
+    /// Schema of the table that contains it.
     table: &'a Json,
 }
 
@@ -61,20 +61,20 @@ impl<'a> Key<'a> {
         Key { path: String::new(), variant: None, needed: true, root: schema, own: schema, table: schema }
     }
 
-    /// What the schema says of it, behind references.
+    /// Its schema, with references resolved.
     fn schema(&self) -> &'a Json {
         let name = self.own["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/"));
         name.map_or(self.own, |name| &self.root["$defs"][name])
     }
 
-    /// Its description in one line; of a word that names a kind of table, that of the table.
+    /// Its description in one line; for a variant, that of the table.
     fn meaning(&self) -> String {
         let words = |schema: &'a Json| schema["description"].as_str();
         let of_kind = || words(self.table).filter(|_| self.own.get("const").is_some());
         words(self.own).or_else(|| words(self.schema())).or_else(of_kind).unwrap_or_default().replace('\n', " ")
     }
 
-    /// The tables that may stand at its place, each with what tells it from the others: one, unless there are kinds of it.
+    /// Tables that it may hold, each with the key that distinguishes it: one, unless the section has variants.
     fn tables(&self) -> Vec<(Option<String>, &'a Json)> {
         let schema = self.schema();
         let Some(kinds) = schema["oneOf"].as_array() else {
@@ -116,8 +116,8 @@ impl<'a> Key<'a> {
         below.iter().flat_map(|key| std::iter::once(key.clone()).chain(key.all())).collect()
     }
 
-    /// The keys at a path, in which names and stars stand for what has a name of the user's own; else all of that name; else
-    /// all that may be that word.
+    /// Keys at a path, where names and `*` match the user's own names; else all keys with that name; else all that may
+    /// have that value.
     fn find(&self, path: &str) -> Result<Vec<Key<'a>>, Failure> {
         let all = self.all();
         // as --set writes it: the key that may be that word
@@ -163,7 +163,7 @@ impl<'a> Key<'a> {
         bare(self.path.rsplit('.').next().unwrap_or_default())
     }
 
-    /// What may stand there, as text.
+    /// Type of its value, as text.
     fn kind(&self) -> String {
         let schema = self.schema();
         let mut words = match (schema["x-dimension"].as_str(), names(schema)) {
@@ -203,7 +203,7 @@ impl<'a> Key<'a> {
     }
 }
 
-/// What keys are also called.
+/// Synonyms of keys.
 const ALSO: [(&str, &str); 8] = [
     ("airbag", "bags"),
     ("air_bag", "bags"),
@@ -214,21 +214,21 @@ const ALSO: [(&str, &str); 8] = [
     ("pretensioner", "retractors"),
     ("interior", "solids"),
 ];
-/// What is looked for among the keys and is a result.
+/// Words looked up as keys that are results.
 const RESULTS: [&str; 4] = ["ejection", "throw", "throw_distance", "searle"];
 
-/// Whether a word is meant, in one or several, with other letters or with blanks.
+/// Whether two spellings mean the same word, ignoring case, blanks and underscores.
 fn is_called(said: &str, word: &str) -> bool {
     let said = said.trim().to_lowercase().replace([' ', '-'], "_");
     said == word || said.strip_suffix('s') == Some(word)
 }
 
-/// A step of a path without an index.
+/// A step of a path without its index.
 fn bare(step: &str) -> &str {
     step.split('[').next().unwrap_or(step)
 }
 
-/// The words that may stand at a place, in quotes.
+/// Allowed words, in quotes.
 fn names(schema: &Json) -> Vec<String> {
     let listed = schema["enum"].as_array().into_iter().flatten().map(Json::to_string);
     listed
@@ -237,7 +237,7 @@ fn names(schema: &Json) -> Vec<String> {
         .collect()
 }
 
-/// The same with what each means, where the schema says so.
+/// Allowed words with their meanings, if described.
 fn choices(schema: &Json) -> Vec<(String, &str)> {
     let all = schema["oneOf"].as_array().into_iter().flatten();
     all.filter_map(|one| Some((one.get("const")?.to_string(), one["description"].as_str().unwrap_or_default())))
@@ -254,7 +254,7 @@ fn quantity(dimension: &str, schema: &Json) -> String {
     format!("{dimension}{bare}, such as {}", schema["x-example"].as_str().unwrap_or_default())
 }
 
-/// What has no words of its own.
+/// Type names of plain values.
 fn plain(schema: &Json, root: &Json) -> String {
     match schema["type"].as_str() {
         Some("string") => "text".into(),
@@ -275,7 +275,7 @@ fn plain(schema: &Json, root: &Json) -> String {
     }
 }
 
-/// All keys as a page.
+/// All keys as a Markdown page.
 fn page(root: &Key, of: Document) -> String {
     let mut text = format!(
         "# Keys of a {of}\n\nWritten by `occupant explain --of {of} --markdown`. {}\n\nNAME stands for a name that you choose, `[]` for any item of a list.\n",

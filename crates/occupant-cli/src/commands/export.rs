@@ -112,7 +112,7 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The motion as a scene, of which neither channels nor filters are asked for.
+/// Exports the motion as a scene, which has neither channels nor filters.
 fn export_scene(args: &Args, output: &Path) -> Result<(), Failure> {
     if !args.channels.is_empty() || args.interval.is_some() {
         let found = "--channel and --interval apply to tables; a glTF scene has all outputs";
@@ -124,7 +124,7 @@ fn export_scene(args: &Args, output: &Path) -> Result<(), Failure> {
     deliver(output, args.force, &glb(&results)?)
 }
 
-/// The table of a sweep, whose columns are all written.
+/// Exports the table of a sweep, with all columns.
 fn export_sweep(args: &Args, output: &Path, form: Form) -> Result<(), Failure> {
     let is_of_runs = !args.channels.is_empty()
         || args.interval.is_some()

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// Jobs, and the commands for each.
+/// Groups of commands, by job.
 const GROUPS: [(&str, &[&str]); 7] = [
     ("Set up a case", &["new", "check", "explain", "schema", "surface"]),
     ("Simulate", &["run", "drive"]),
@@ -13,7 +13,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
     ("This program", &["completions", "man", "help"]),
 ];
 
-/// The same command line; its help lists the commands in groups.
+/// The command line with its help grouped by job.
 pub(super) fn grouped(command: clap::Command) -> clap::Command {
     let mut list = String::new();
     for (title, names) in GROUPS {

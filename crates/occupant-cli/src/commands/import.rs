@@ -110,12 +110,12 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     write(args, &name, &imported, &made)
 }
 
-/// Whether the source is one table, which is of no use without a path.
+/// Whether the source is a single table, which is useless without a path.
 fn is_table(source: &Path) -> bool {
     !source.is_dir() && matches!(ending(source).as_str(), "csv" | "txt" | "tsv" | "asc" | "dat")
 }
 
-/// A low-pass in words.
+/// A low-pass filter as text.
 ///
 /// # Errors
 /// What is none.
@@ -134,7 +134,7 @@ pub(super) fn filter(text: &str) -> Result<PathFilter, String> {
     }
 }
 
-/// A quantity as it is written, which is at least 0.
+/// A quantity as text, at least 0.
 fn written<const KIND: usize>(text: &str) -> Result<String, String> {
     match KINDS[KIND].read(text) {
         Ok(value) if value >= 0.0 => Ok(text.trim().to_owned()),
@@ -143,7 +143,7 @@ fn written<const KIND: usize>(text: &str) -> Result<String, String> {
     }
 }
 
-/// The name of the source without its ending, as that of a file.
+/// The file name of the source without extension.
 fn stem(source: &Path) -> String {
     let whole = std::fs::canonicalize(source).unwrap_or_else(|_| source.to_owned());
     let name = if whole.is_dir() { file_name(&whole) } else { file_name(&whole.with_extension("")) };
@@ -188,7 +188,7 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
     Ok(())
 }
 
-/// The driver of `occupant new` on this path.
+/// The driver's scenario with the imported path.
 fn scenario(source: &Path, imported: &Imported, path: &PathTable, file: &str) -> String {
     let text = |words: &str| toml_edit::Value::from(words).to_string();
     let title = Some(imported.record.title.trim()).filter(|title| !title.is_empty());

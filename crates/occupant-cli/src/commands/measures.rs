@@ -20,7 +20,7 @@ use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
 use occupant_files::results::Results;
 use occupant_jobs::files::history::{FAMILIES, family_name};
 
-/// Readings of filtered channels are taken so often, s: the 10 kHz of SAE J211.
+/// Sample interval of filtered channels, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;
 
 /// Print injury measures of runs and tests, with limits and risk curves
@@ -77,7 +77,7 @@ const FILTERS: [(&str, &str, Asked); 4] = [
     ("iso6487", "The same with ISO 6487 coefficients (older spelling)", Asked::Classes(Some(CfcFamily::Iso6487))),
 ];
 
-/// The filter asked for, and whose coefficients an old name says.
+/// Requested filter, and the coefficients that an old name implies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Asked {
     None,
@@ -93,7 +93,7 @@ impl Args {
     }
 }
 
-/// Dummies, likewise.
+/// Dummies: names on the command line, names in help.
 const DUMMIES: [(&str, &str, Dummy); 11] = [
     ("hybrid-iii-50m", "Hybrid III, 50th percentile male", Dummy::HybridIii50M),
     ("hybrid-iii-5f", "Hybrid III, 5th percentile female", Dummy::HybridIii5F),
@@ -113,13 +113,13 @@ struct Answer<'a> {
     file: &'a str,
     title: &'a str,
     complete: bool,
-    /// The time that the outputs of the file cover, s.
+    /// Time span of the file's outputs, s.
     covers_s: [f64; 2],
     dummy: &'static str,
     #[serde(skip_serializing_if = "str::is_empty")]
     occupant: &'a str,
     measures: &'a [Measure],
-    /// Of the other occupants.
+    /// Measures of the other occupants.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     others: BTreeMap<&'a str, &'a [Measure]>,
     caveats: &'a [Caveat],
@@ -156,7 +156,7 @@ impl Judged {
         Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
     }
 
-    /// Those asked for, or of its scenario.
+    /// Requested units, else those of its scenario.
     fn units(&self, args: &Args) -> Units {
         args.units.or(self.results.loaded.scenario.units)
     }
@@ -234,7 +234,7 @@ fn filter(options: &Options) -> String {
     }
 }
 
-/// How far limits and curves are to be trusted.
+/// Sources of limits and curves.
 const JUDGEMENT: &str =
     "Limits and risk curves come from secondary sources: check the regulation itself before a legal statement.\n";
 

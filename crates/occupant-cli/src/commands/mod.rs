@@ -37,6 +37,7 @@ mod view;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
+use clap::error::ContextKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use placed_text::shown;
 
@@ -54,7 +55,7 @@ struct Cli {
     command: Command,
 }
 
-/// The commands: the flags of each and what it does.
+/// The commands: their flags and functions.
 macro_rules! commands {
     ($($name:ident: $file:ident::$does:ident,)*) => {
         #[derive(Debug, Subcommand)]
@@ -97,13 +98,13 @@ commands! {
     Man: man::write,
 }
 
-/// Reads the command line and does what it says.
+/// Runs the command line of this process.
 pub fn main() -> ExitCode {
     survive_long_files();
     answer(std::env::args_os())
 }
 
-/// Does what these words say, of which the first is the program's name.
+/// Runs a command line, which starts with the program's name.
 pub fn answer(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     hear_jobs();
     let parsed = groups::grouped(Cli::command()).try_get_matches_from(words);
@@ -114,12 +115,21 @@ pub fn answer(words: impl IntoIterator<Item = OsString>) -> ExitCode {
             progress::end_line();
             exit_code(done)
         }
-        Err(wrong) if wrong.use_stderr() => exit_code(Err(Failure::CouldNotRun(in_lines(&wrong.render().to_string())))),
+        Err(wrong) if wrong.use_stderr() => {
+            let tip = if asks_to_simulate(&wrong) { "\n\n  tip: `occupant run` simulates a scenario" } else { "" };
+            exit_code(Err(Failure::CouldNotRun(in_lines(&wrong.render().to_string()) + tip)))
+        }
         Err(help) => exit_code(written(help.print()).map(Done::from)),
     }
 }
 
-/// Shows that a command is at work, unless it is to be quiet.
+/// Whether an unknown command is another word for `run`.
+fn asks_to_simulate(wrong: &clap::Error) -> bool {
+    let word = wrong.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
+    word.is_some_and(|word| ["simulate", "sim", "start", "solve", "exec"].contains(&word.as_str()))
+}
+
+/// Shows a status line for a command unless it is quiet.
 fn watch_work(matches: &ArgMatches) {
     let (mut words, mut own) = (vec!["occupant"], matches);
     while let Some((name, below)) = own.subcommand() {
@@ -131,12 +141,12 @@ fn watch_work(matches: &ArgMatches) {
     }
 }
 
-/// A text with words of the command line in it, each line of it safe to show.
+/// A text that contains words of the command line, with control characters made visible.
 fn in_lines(text: &str) -> String {
     text.trim_end().lines().map(shown).collect::<Vec<_>>().join("\n")
 }
 
-/// Says what went wrong, if anything, and gives the exit code.
+/// Prints the error, if any; the exit code.
 fn exit_code(result: Result<Done, Failure>) -> ExitCode {
     let failed = |message: &str, code: u8| {
         say(message);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::base::{Failure, publish, quoted, say};
 use template::Template;
 
-/// The scenario that is written unless another template is asked for.
+/// The default template.
 pub(super) const STARTER: &str = include_str!("new/driver.toml");
 
 /// Write a commented scenario or study that is ready to run

@@ -93,7 +93,7 @@ pub(crate) struct Args {
     open: bool,
 }
 
-/// Draws the fourteen plots of a run, as a deck with the card STAN asks for them.
+/// Draws the fourteen standard plots of a run, as the card STAN of a deck requests them.
 pub(crate) fn draw_standard(run: &Path, force: bool) -> Result<(), Failure> {
     let words = [OsStr::new("plot"), run.as_os_str()].into_iter().chain(force.then_some(OsStr::new("--force")));
     let matches = Args::augment_args(clap::Command::new("plot")).try_get_matches_from(words);
@@ -148,7 +148,7 @@ fn window(window: WindowArgs) -> Result<[f64; 2], Failure> {
     ))
 }
 
-/// Runs whose titles stand below the heading.
+/// Largest number of runs with titles below the heading.
 const MOST_RUNS: usize = 6;
 
 fn words(args: &Args, runs: &[Results]) -> Sheet {
@@ -190,7 +190,7 @@ fn write_each(args: &Args, folder: &Path, kind: Format, words: &Sheet, figures: 
     Ok(())
 }
 
-/// Longest name of a file, without number and ending.
+/// Longest file name, without number and extension.
 const LONGEST_SLUG: usize = 60;
 
 /// `Head acceleration X, ahead` → `head-acceleration-x-ahead`.

@@ -43,7 +43,8 @@ pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     write(&files, &output, (args.force, is_unasked, args.open), args.units)
 }
 
-/// Writes the page of runs; whether a file that exists is replaced in any case, or as an earlier page of the same, and whether the page is opened.
+/// Writes the page of runs. `force`: replace any existing file; `is_unasked`: replace an earlier page of the same runs;
+/// `open`: open the page.
 pub(crate) fn write(
     files: &[PathBuf],
     output: &Path,
@@ -66,7 +67,7 @@ pub(crate) fn write(
     deliver_and(open, output, force, page.as_bytes())
 }
 
-/// Whether the page is an earlier one of the same runs; then says that it is replaced.
+/// Whether the page is an earlier one of the same runs, which is then reported as replaced.
 fn replaces_earlier(files: &[PathBuf], output: &Path) -> bool {
     let names: Vec<String> = files.iter().map(|run| file_name(run)).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();

@@ -151,14 +151,14 @@ const RULES: [(&str, &str, Rule); 10] = [
     ("en12767-slow", "EN 12767, supports, at 35 km/h", Rule::En12767Slow),
 ];
 
-/// Filter coefficients, likewise.
+/// Families of filter coefficients: names on the command line, names in help.
 const FAMILIES: [(&str, &str, CfcFamily); 3] = [
     ("iso6487", "ISO 6487", CfcFamily::Iso6487),
     ("sae-j211", "SAE J211", CfcFamily::SaeJ211),
     ("j211", "The same as sae-j211", CfcFamily::SaeJ211),
 ];
 
-/// Measures and judges.
+/// Computes measures and compares them with the rules.
 pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     let preparation = preparation(args)?;
     let flight = flight(args)?;
@@ -203,7 +203,7 @@ fn write(args: &Args, output: &Path, report: &Report) -> Result<(), Failure> {
     Ok(())
 }
 
-/// SAE J211 asks for at least ten samples in a period of the class.
+/// Warns if there are fewer than ten samples per period of the class, the minimum of SAE J211.
 fn warn_of_coarse_samples(signals: &VehicleSignals, preparation: &Preparation) {
     if let Some((class, _)) = preparation.filter
         && signals.dt_s * class.hertz() > 0.1 * (1.0 + 1e-6)

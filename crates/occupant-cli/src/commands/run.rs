@@ -82,18 +82,18 @@ pub(crate) struct Args {
     #[command(flatten)]
     ensemble: EnsembleArgs,
 
-    /// One of several, of which the tables are printed together.
+    /// Whether it is one of several scenarios, whose tables are printed together.
     #[arg(skip)]
     is_one_of_several: bool,
 }
 
-/// What `--json` prints.
+/// The JSON answer.
 #[derive(Serialize)]
 struct Answer<'a> {
     program: String,
     scenario: String,
     overrides: &'a [String],
-    /// What it resumes; absent without `--resume`.
+    /// The run it continues; absent without `--resume`.
     #[serde(skip_serializing_if = "Option::is_none")]
     resumed: Option<Resumed>,
     /// The file written; absent with `--no-mcap`.
@@ -101,10 +101,10 @@ struct Answer<'a> {
     #[serde(flatten)]
     summary: &'a Summary,
     unstable_friction: Vec<UnstableFriction>,
-    /// Absent without `--ensemble`, and where the run itself did not complete.
+    /// Absent without `--ensemble`, or if the run itself did not complete.
     #[serde(skip_serializing_if = "Option::is_none")]
     ensemble: Option<&'a Report>,
-    /// Absent without `--estimate-error`, and where the run itself did not complete.
+    /// Absent without `--estimate-error`, or if the run itself did not complete.
     #[serde(skip_serializing_if = "Option::is_none")]
     error_estimate: Option<&'a ErrorEstimate>,
     warnings: Vec<String>,
@@ -114,7 +114,7 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     if args.more.is_empty() { Ok(one(args)?.0) } else { several(args) }
 }
 
-/// Runs the scenarios one after the other, and prints their measures side by side.
+/// Runs the scenarios in turn and prints their measures side by side.
 fn several(args: &Args) -> Result<Done, Failure> {
     let mut done = Done::Well;
     let mut runs: Vec<(PathBuf, Summary, Units)> = Vec::new();
@@ -148,7 +148,7 @@ fn several(args: &Args) -> Result<Done, Failure> {
     Ok(done)
 }
 
-/// What would stop a later one of several scenarios, or let it take the place of an earlier one's results, before any runs.
+/// Refuses, before any run, scenarios that would fail or would replace the results of an earlier one.
 fn refuse_before(args: &Args, all: &[ScenarioArgs]) -> Result<(), Failure> {
     if let Some(page) = &args.output {
         if !is_page(page) {
@@ -249,7 +249,7 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     Ok((done, run.summary, units))
 }
 
-/// Draws the standard plots of a complete run of a deck whose plot card asks for them; those of an earlier run of the deck are
+/// Draws the standard plots of a complete run if the plot card of its deck asks for them; earlier plots of the deck are
 /// replaced.
 fn draw(args: &Args, opened: &Opened, run: &Simulated) -> Result<(), Failure> {
     match (&opened.deck, &run.written) {
@@ -266,13 +266,13 @@ fn is_page_of_plots(path: &Path) -> bool {
     std::fs::read_to_string(path).is_ok_and(|text| text.contains("<svg") && text.contains("segment axes: X"))
 }
 
-/// What came of something, if anything did.
+/// The value of a result, if any.
 fn told<T>(of: &Result<T, Failure>) -> Option<&T> {
     of.as_ref().ok()
 }
 
-/// What happens to a file that stands where ours goes: one of the default name that is an earlier run of this scenario is
-/// replaced, which is said.
+/// Handling of an existing file: one with the default name from an earlier run of this scenario is replaced, with a
+/// message.
 fn existing_at(args: &Args, name: &Path, chosen: &ScenarioArgs, opened: &Opened) -> Existing {
     let unasked = args.output.is_none() && args.resume.is_none() && !args.force;
     let is_earlier = unasked && is_earlier(name, chosen, opened);
@@ -290,7 +290,7 @@ fn say_balance(balance: Balance, summary: &Summary) {
     }
 }
 
-/// The scenario with its end as `--until` has it.
+/// The scenario with the end time of `--until`.
 fn chosen(args: &Args) -> ScenarioArgs {
     let mut chosen = args.scenario.clone();
     let until = args.until.as_ref().map(|time| format!("time.end={time}"));
@@ -298,7 +298,7 @@ fn chosen(args: &Args) -> ScenarioArgs {
     chosen
 }
 
-/// The file to write: as given, or the scenario's name in the present folder.
+/// The file to write: as given, or the scenario's name in the current folder.
 fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
     if args.no_mcap {
         return Ok(None);
@@ -314,7 +314,7 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
     Ok(Some(PathBuf::from(name)))
 }
 
-/// Prints the results, and what to know of them.
+/// Prints results and caveats.
 fn show(
     args: &Args,
     chosen: &ScenarioArgs,

@@ -17,39 +17,39 @@ pub(crate) struct Args {
     of: Of,
 }
 
-/// What there is a schema of.
+/// Documents with a schema.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Of {
-    /// What `run` reads
+    /// A scenario, for `run`
     Scenario,
-    /// What `sweep` reads
+    /// A study, for `sweep`
     Study,
-    /// What `fit` reads: a study with a section `fit`
+    /// A study with a section `fit`, for `fit`
     Fit,
-    /// What `surface` writes and materials name by `file`
+    /// A surface file, written by `surface` and named by `file` of materials
     Surface,
-    /// What `run --json` prints
+    /// Output of `run --json`
     Run,
-    /// What `check --json` prints
+    /// Output of `check --json`
     Check,
-    /// What `measures --json` prints
+    /// Output of `measures --json`
     Measures,
-    /// What `compare --json` prints
+    /// Output of `compare --json`
     Compare,
-    /// What `risk --json` prints
+    /// Output of `risk --json`
     Risk,
-    /// What `sensitivity --json` prints
+    /// Output of `sensitivity --json`
     Sensitivity,
 }
 
-/// A kind of file that people write.
+/// Kinds of files that people write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Document {
-    /// What `run` reads
+    /// A scenario, for `run`
     Scenario,
-    /// What `sweep` and `fit` read
+    /// A study, for `sweep` and `fit`
     Study,
-    /// What `surface` writes and materials name by `file`
+    /// A surface file, written by `surface` and named by `file` of materials
     Surface,
 }
 
@@ -63,7 +63,7 @@ impl Document {
         }
     }
 
-    /// What it is called.
+    /// Its name.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Document::Scenario => "scenario",

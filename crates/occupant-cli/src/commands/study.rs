@@ -20,7 +20,7 @@ enum Step {
     Bands(bands::BandsArgs),
 }
 
-/// Does what is asked of a study.
+/// Runs a subcommand of `study`.
 pub(crate) fn study(args: &Args) -> Result<(), Failure> {
     match &args.command {
         Step::Report(args) => report::report(args),

@@ -36,7 +36,7 @@ pub(crate) struct Args {
     #[arg(long)]
     down: bool,
 
-    /// Half the 95 % interval of the speed, for the intervals
+    /// Half width of the 95 % interval of the speed
     #[arg(long, value_name = "SPEED", value_parser = si::<SPEED>, default_value = "0 m/s")]
     speed_error: f64,
 
@@ -56,15 +56,15 @@ pub(crate) struct Args {
     #[command(flatten)]
     window: WindowArgs,
 
-    /// What the surface is, in one line
+    /// Description of the surface, one line
     #[arg(long, value_name = "WORDS")]
     title: Option<String>,
 
-    /// Who measured it and where that is published
+    /// Author and publication of the measurement
     #[arg(long, value_name = "WORDS")]
     source: Option<String>,
 
-    /// The part: make, model, year, place, how it was held
+    /// Specimen: make, model, year, position, mounting
     #[arg(long, value_name = "WORDS")]
     specimen: Option<String>,
 
@@ -72,11 +72,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "WORDS")]
     impactor: Option<String>,
 
-    /// When it was measured
+    /// Date of the measurement
     #[arg(long, value_name = "DATE")]
     date: Option<String>,
 
-    /// What others may do with it, such as CC0-1.0
+    /// Licence for reuse, such as CC0-1.0
     #[arg(long, value_name = "WORDS")]
     licence: Option<String>,
 

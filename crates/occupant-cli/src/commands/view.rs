@@ -22,15 +22,15 @@ use occupant_pictures::film::{Draw, FRAMES_A_SECOND, Film};
 use occupant_pictures::view::{Measured, Strip, View, draw, frames};
 use occupant_scenario::{Loaded, Size};
 
-/// Pixels of a PNG for each unit of the drawing.
+/// Pixels of a PNG per drawing unit.
 const PIXELS: f64 = 2.0;
 /// Interval of the pictures without `--times`, ms.
 const EVERY_MS: f64 = 40.0;
-/// Without `--times`, no more pictures than this.
+/// Largest number of pictures without `--times`.
 const MOST_BY_DEFAULT: usize = 12;
-/// With `--times`, no more than this.
+/// Largest number with `--times`.
 const MOST: usize = 120;
-/// Most frames of a film.
+/// Largest number of frames of a film.
 const MOST_FRAMES: usize = 3000;
 
 /// Draw a run at chosen times, or as a film; draw how a scenario starts
@@ -69,7 +69,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "VIEWS", value_enum, value_delimiter = ',')]
     views: Vec<View>,
 
-    /// Draw the main distances of the car with their SAE names, in mm: of a scenario, or of a run at its start
+    /// Draw the main distances of the car with their SAE names, in mm, in the initial position
     #[arg(long)]
     dimensions: bool,
 
@@ -122,7 +122,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     deliver_and(args.open, &output, args.force, &bytes)
 }
 
-/// How fast a film plays, as text.
+/// Playback speed of a film, as text.
 fn pace(args: &Args, kind: Kind) -> String {
     match (&args.times, kind) {
         (None, Kind::Film(_) | Kind::Frames) => format!(", {} times slower than real time", args.slow_motion),
@@ -130,7 +130,7 @@ fn pace(args: &Args, kind: Kind) -> String {
     }
 }
 
-/// What is made.
+/// Kind of output.
 #[derive(Clone, Copy)]
 enum Kind {
     Picture(Format),
@@ -138,7 +138,7 @@ enum Kind {
     Frames,
 }
 
-/// Writes a picture of each frame.
+/// Writes each frame as a picture.
 fn write_each(args: &Args, count: usize, draw: Draw<'_>) -> Result<(), Failure> {
     let Some(folder) = &args.each else { return Ok(()) };
     fs::create_dir_all(folder).map_err(|e| Failure::plain(format!("{} cannot be made: {e}", folder.display())))?;
@@ -161,7 +161,7 @@ fn picture(strip: &Strip<'_>, format: Format) -> Result<Vec<u8>, Failure> {
     format.encode(&draw(strip), PIXELS).map_err(|e| Failure::with_help(e, "draw fewer times"))
 }
 
-/// Each view once, in the order asked for.
+/// The requested views, each once.
 fn views(args: &Args, kind: Kind) -> Vec<View> {
     let all: &[View] = match kind {
         Kind::Film(_) | Kind::Frames => &[View::Side],
@@ -177,9 +177,9 @@ fn views(args: &Args, kind: Kind) -> Vec<View> {
     views
 }
 
-/// The distances that are drawn: those of the first vehicle's car, and what is free before and over the body.
+/// The distances drawn: those of the first vehicle's car, and the clearances in front of the body and above it.
 ///
-/// A run holds its bodies written out, of which the stature that places seats and D-rings is not known: `with_seats` says whether it is.
+/// A run contains its bodies without the stature that places seats and D-rings: `with_seats` says whether it is known.
 fn lines(loaded: &Loaded, model: &Model, with_seats: bool) -> Vec<Measured> {
     let of_car = loaded
         .dimensions()
@@ -212,7 +212,7 @@ fn lines(loaded: &Loaded, model: &Model, with_seats: bool) -> Vec<Measured> {
     of_car.chain(free).collect()
 }
 
-/// Draws how the body of a scenario sits at its start.
+/// Draws the initial position of the body of a scenario.
 fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     let Kind::Picture(format) = kind else {
         let help = "run it first, and make the film from its .mcap";
@@ -239,7 +239,7 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     deliver_and(args.open, output, args.force, &picture(&strip, format)?)
 }
 
-/// Keeps the first output of a run and ends it there.
+/// Keeps the first output of a run and stops it.
 struct First(Option<Snapshot>);
 
 impl Recorder for First {
@@ -249,7 +249,7 @@ impl Recorder for First {
     }
 }
 
-/// How many times slower than life.
+/// Slow-motion factor.
 fn slow_motion(text: &str) -> Result<f64, String> {
     let factor = text.parse().ok().filter(|factor| (0.01..=1e4).contains(factor));
     factor.ok_or_else(|| "expected a number from 0.01 to 10000, such as 20".to_owned())
@@ -278,7 +278,7 @@ fn frames_s([first_s, last_s]: [f64; 2], slow_motion: f64) -> Result<Vec<f64>, F
 #[derive(Clone, Debug)]
 struct Times(Vec<f64>);
 
-/// Reads a list, from its end on, as a time without a unit takes that of the next one.
+/// Parses a list from its end, as a time without a unit takes that of the next one.
 fn times(list: &str) -> Result<Times, String> {
     let mut unit = "s";
     let mut times = Vec::new();
@@ -347,7 +347,7 @@ fn moments(results: &Results, outputs: &[usize]) -> Result<Vec<Snapshot>, Failur
     Ok(outputs.iter().filter_map(find).map(|s| s.1.clone()).collect())
 }
 
-/// The small print: file, its hash, program.
+/// Caption: file, its hash, program.
 fn origin(results: &Results) -> String {
     let name = file_name(&results.path);
     let program = results.run.get("program").map_or("-", String::as_str);

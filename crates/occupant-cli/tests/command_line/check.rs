@@ -6,6 +6,7 @@ fn it_shows_what_will_be_simulated() {
     let output = answer(folder.path(), &["check", "case.toml"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let text = out(&output);
+    assert!(!text.contains("left_thigh ") && text.contains("add --all"), "{text}");
     for words in ["31 degrees of freedom", "12 segments", "sinks", "touches at", "fastest time scale"] {
         assert!(text.contains(words), "{words} is missing in\n{text}");
     }
@@ -30,7 +31,7 @@ fn its_json_tells_the_same() {
 #[test]
 fn it_says_how_far_people_differ_and_whose_lengths_are_weak() {
     let folder = folder_with_case();
-    let check = |set: &str| out(&answer(folder.path(), &["check", "case.toml", "--set", set]));
+    let check = |set: &str| out(&answer(folder.path(), &["check", "case.toml", "--all", "--set", set]));
     let text = check("body.segments.head.length=0.25 m");
     let numbers: Vec<f64> = row(&text, "left_thigh")[2..].iter().filter_map(|cell| cell.parse().ok()).collect();
     let [length_m, least_m, most_m] = numbers[..] else { panic!("{numbers:?}") };

@@ -38,12 +38,12 @@ pub struct SegmentProperties {
     pub cg_beside_m: Vector2<f64>,
     /// Principal moments of inertia about the centre of gravity; I_x, I_y, I_z in the report.
     pub inertia_kg_m2: Vector3<f64>,
-    /// Turns the principal axes into the segment's; no turn in the report.
+    /// Rotation of the principal axes to the segment's axes; identity in the report.
     pub principal: UnitQuaternion<f64>,
 }
 
 impl SegmentProperties {
-    /// Of no segment.
+    /// Properties of a missing segment.
     const NONE: SegmentProperties = {
         let none = f64::NAN;
         SegmentProperties {
@@ -56,7 +56,7 @@ impl SegmentProperties {
         }
     };
 
-    /// As in the report: the centre of gravity between the ends, the segment's axes principal.
+    /// Properties as in the report: the centre of gravity on the line between the ends, the segment's axes principal.
     pub fn new(length_m: f64, mass_kg: f64, cg_from_lower_end_m: f64, inertia_kg_m2: Vector3<f64>) -> Self {
         SegmentProperties {
             length_m,
@@ -74,23 +74,23 @@ impl SegmentProperties {
     }
 }
 
-/// Where a joint is on one of its segments: a point from the segment's lower end, and the joint's axes.
+/// Location of a joint on one of its segments: a point from the segment's lower end, and the joint's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointSite {
     /// From the lower end, segment axes, m.
     pub point_m: Vector3<f64>,
-    /// Turns the joint's axes into the segment's. In the posture zero both segments' fall together.
+    /// Rotation of the joint's axes to the segment's. In the zero posture those of both segments coincide.
     pub axes: UnitQuaternion<f64>,
 }
 
 impl JointSite {
-    /// With the segment's own axes.
+    /// A location with the segment's own axes.
     pub(crate) fn at(point_m: Vector3<f64>) -> Self {
         JointSite { point_m, axes: UnitQuaternion::identity() }
     }
 }
 
-/// Where a joint is on its proximal and on its distal segment.
+/// Location of a joint on its proximal and its distal segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointPlace {
     /// On the segment nearer to the root.
@@ -99,28 +99,28 @@ pub struct JointPlace {
     pub distal: JointSite,
 }
 
-/// A sphere fixed to a segment, the only part of the body that touches surfaces and belts.
+/// A sphere fixed to a segment; only spheres touch surfaces and belts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactSphere {
     /// Unique name, e.g. `head`, `left_knee`.
     pub name: String,
-    /// The segment that carries it.
+    /// Its segment.
     pub segment: Segment,
     /// Centre in segment axes, measured from the segment's lower end.
     pub centre_from_lower_end_m: Point3<f64>,
     /// r.
     pub radius_m: f64,
-    /// The part of the body that it belongs to, such as `head` or `left_shin`: results speak of the forces on all its spheres
-    /// as one. A sphere alone is a part by its own name.
+    /// Body part that it belongs to, such as `head` or `left_shin`; results combine the forces on all its spheres. A
+    /// single sphere is a part with its own name.
     pub part: String,
-    /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 by default.
+    /// Factor on its contact forces, for a material measured on the whole part; 1 by default.
     pub share: f64,
-    /// How it rides on parts of its segment that yield; not at all by default.
+    /// Deformable parts that it rides on; none by default.
     pub ride: Ride,
 }
 
 impl ContactSphere {
-    /// A sphere that is a part of its own.
+    /// A sphere that is its own part.
     pub fn new(name: impl Into<String>, segment: Segment, centre_from_lower_end_m: Point3<f64>, radius_m: f64) -> Self {
         let name = name.into();
         ContactSphere {
@@ -138,13 +138,13 @@ impl ContactSphere {
 /// A whole body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// Where it comes from, e.g. `male50`.
+    /// Its origin, e.g. `male50`.
     pub name: String,
     /// Its segments, joints and standard spheres.
     pub tree: &'static Tree,
     /// Properties of the segments, in the tree's order.
     pub segments: Vec<SegmentProperties>,
-    /// Places of the joints in the tree's order where the tree leaves them to the body ([`Place::Given`]); else empty.
+    /// Places of joints that the tree does not define ([`Place::Given`]), in the tree's order; else empty.
     pub places: Vec<JointPlace>,
     /// L_s, distance of a shoulder joint from the upper end of segment 2 along Y₂.
     pub shoulder_half_width_m: f64,
@@ -152,19 +152,19 @@ pub struct Body {
     pub hip_half_width_m: f64,
     /// Height of the neck's joint above the line of the shoulders along Z₂; 0 in the report.
     pub neck_height_m: f64,
-    /// The occipital condyles seen from the neck's joint, axes of the head: loads of the upper neck are given there.
-    /// Without them they are given at the joint.
+    /// Position of the occipital condyles from the neck joint, axes of the head, where upper neck loads are given. If
+    /// absent, they are given at the joint.
     pub condyles_m: Option<Vector3<f64>>,
     /// Contact spheres; the tree's standard ones unless a scenario says otherwise.
     pub spheres: Vec<ContactSphere>,
-    /// Parts that yield; none of a rigid trunk.
+    /// Deformable parts; none for a rigid trunk.
     pub plates: Vec<Plate>,
-    /// Chests that results report, at most one per body.
+    /// Chests in the results, at most one per body.
     pub chests: Vec<Chest>,
 }
 
 impl Body {
-    /// Properties of one segment; those of none, which are not numbers, of a segment that the body has not.
+    /// Properties of a segment; NaN for a segment that the body lacks.
     pub fn segment(&self, segment: Segment) -> &SegmentProperties {
         self.segments.get(segment.index()).unwrap_or(&SegmentProperties::NONE)
     }
@@ -192,7 +192,7 @@ impl Body {
         (0..self.spheres.len()).filter(is_first).map(|i| self.spheres[i].part.as_str())
     }
 
-    /// Centres of the spheres of a body that stands upright with hanging arms; from T1 ahead, to the left and up, m.
+    /// Centres of the spheres of a body standing upright with hanging arms; from T1 forward, left and up, m.
     pub fn standing_m(&self) -> Vec<Point3<f64>> {
         let mut placed = vec![(UnitQuaternion::identity(), Vector3::zeros()); self.segments.len()];
         for segment in self.tree.segments() {
@@ -210,7 +210,7 @@ impl Body {
         self.spheres.iter().map(place).collect()
     }
 
-    /// Y of what is beside the middle plane, m.
+    /// Y of a point beside the middle plane, m.
     pub(crate) fn beside_m(&self, width: Width, side: Side) -> f64 {
         let half_width_m = match width {
             Width::Shoulder => self.shoulder_half_width_m,
@@ -219,7 +219,7 @@ impl Body {
         if side == Side::Left { half_width_m } else { -half_width_m }
     }
 
-    /// Where a joint is on both of its segments.
+    /// Location of a joint on both of its segments.
     pub fn place(&self, joint: Joint) -> JointPlace {
         let row = &self.tree[joint];
         let at = |y: f64, above_m: f64| {
@@ -236,25 +236,25 @@ impl Body {
         JointPlace { proximal, distal: JointSite::at(self.end_m(row.distal)) }
     }
 
-    /// Where a joint is on the segment nearer to the first one, and on the one that it carries.
+    /// Location of a joint on the segment nearer to the root, and on the one that it carries.
     pub(crate) fn sites(&self, joint: Joint) -> [JointSite; 2] {
         let JointPlace { proximal, distal } = self.place(joint);
         if self.tree[joint].is_reversed() { [distal, proximal] } else { [proximal, distal] }
     }
 
-    /// The point of a segment that the kernel calls its joint, from its lower end, segment axes, m: where the joint is that
-    /// carries it; of the first segment the end that is T1.
+    /// Joint point of a segment for the kernel, from its lower end, segment axes, m: that of the joint which carries
+    /// it; for the first segment the end at T1.
     pub fn joint_m(&self, segment: Segment) -> Vector3<f64> {
         self.tree.bearer(segment).map_or_else(|| self.end_m(segment), |joint| self.sites(joint)[1].point_m)
     }
 
-    /// Where the joint of which a segment is the distal one is on the proximal one, from that one's lower end, m; zero for the
-    /// middle of the trunk.
+    /// Location, on the proximal segment, of the joint whose distal segment is given, from the proximal one's lower
+    /// end, m; zero for the middle of the trunk.
     pub fn socket_m(&self, segment: Segment) -> Vector3<f64> {
         self.tree.carrier(segment).map_or_else(Vector3::zeros, |joint| self.place(joint).proximal.point_m)
     }
 
-    /// Height over the upper end of a segment at which it carries what leads to the head, m.
+    /// Height above the upper end of a segment of the joint towards the head, m.
     pub fn neck_above_m(&self, segment: Segment) -> Option<f64> {
         let joint = |n: &Segment| self.tree.carrier(*n).is_some_and(|joint| self.tree[joint].proximal == segment);
         let next = self.tree.inwards(self.tree.landmarks().head?).find(joint)?;
@@ -274,13 +274,13 @@ impl Body {
         if self.tree[segment].hangs() { -length_m } else { length_m }
     }
 
-    /// The end at which the joint is that carries a segment, from the lower end, m.
+    /// Z of the end with the joint that carries a segment, from the lower end, m.
     fn end_m(&self, segment: Segment) -> Vector3<f64> {
         let hangs = self.tree[segment].hangs();
         Vector3::z() * if hangs { self.segment(segment).length_m } else { 0.0 }
     }
 
-    /// The tree's spheres (Fig. 5) on this body's segments; `radius_m` in the tree's order.
+    /// The tree's standard spheres (Fig. 5) on this body's segments; `radius_m` in the tree's order.
     pub fn standard_spheres(&self, radius_m: &[f64]) -> Vec<ContactSphere> {
         let sphere = |(row, &radius_m): (&SphereRow, &f64)| {
             let y_m = row.beside.map_or(0.0, |(width, side)| self.beside_m(width, side));

@@ -40,7 +40,7 @@ impl Body {
         }
     }
 
-    /// The segments that hang together with `root` once some are left out, each behind the one that it hangs on.
+    /// The segments connected to `root` after some are left out, each after its parent.
     fn reached_from(&self, root: Segment, left_out: &[Segment]) -> Vec<Segment> {
         let mut kept = vec![root];
         let mut at = 0;

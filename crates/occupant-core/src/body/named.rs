@@ -14,39 +14,39 @@ use super::tree::{
 };
 use super::tti12::TTI12;
 
-/// A joint by the names of its segments.
+/// A joint, with its segments by name.
 #[derive(Clone, Copy, Debug)]
 pub struct NamedJoint<'a> {
     /// Name.
     pub name: &'a str,
-    /// How it moves.
+    /// Kind of motion.
     pub kind: JointKind,
     /// Segment nearer to the trunk.
     pub proximal: &'a str,
     /// The other segment.
     pub distal: &'a str,
-    /// Whether the distal segment hangs from its upper end.
+    /// Whether the distal segment is attached at its upper end.
     pub hangs: bool,
 }
 
-/// Names of the segments that carry head, chest and pelvis, where they are not the usual ones.
+/// Names of the segments for head, chest and pelvis, where they are not the usual ones.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NamedLandmarks<'a> {
-    /// `head` if none.
+    /// Default `head`.
     pub head: Option<&'a str>,
-    /// `upper_torso` or `chest` if none.
+    /// Default `upper_torso` or `chest`.
     pub chest: Option<&'a str>,
-    /// `lower_torso` or `pelvis` if none.
+    /// Default `lower_torso` or `pelvis`.
     pub pelvis: Option<&'a str>,
-    /// Whether the body is a part, which may lack any.
+    /// Whether it is a partial body, which may lack any.
     pub is_part: bool,
 }
 
-/// Place of the shin's sphere on a shank that ends at the ankle, as a share of its length: where it is on one with a foot.
+/// Position of the shin's sphere on a lower leg that ends at the ankle, relative to its length: as on one with a foot.
 const SHIN_ABOVE_ANKLE: f64 = 0.534;
 
-/// The tree of joints of which each hangs a segment on one before it; the first one's proximal segment is the root, which
-/// hangs from T1.
+/// The tree of joints, each of which attaches a segment to an earlier one; the first one's proximal segment is the
+/// root, at T1.
 ///
 /// # Errors
 /// A joint that hangs on a segment which no joint before it carries; a segment that two joints carry; a landmark for which
@@ -70,7 +70,7 @@ pub fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'s
     Ok(Tree::interned(&segments, &joint_rows, &spheres(&named), landmarks, &[]))
 }
 
-/// Whether every joint hangs a new segment on one that is there.
+/// Checks that every joint attaches a new segment to an existing one.
 fn check(joints: &[NamedJoint<'_>]) -> Result<(), TreeProblem> {
     let mut known: HashSet<&str> = joints.first().map(|joint| joint.proximal).into_iter().collect();
     for NamedJoint { name, proximal, distal, .. } in joints {
@@ -88,7 +88,7 @@ fn check(joints: &[NamedJoint<'_>]) -> Result<(), TreeProblem> {
     Ok(())
 }
 
-/// A single segment, which hangs on nothing and carries nothing.
+/// A single segment without joints.
 pub(crate) fn lone(name: &str) -> &'static Tree {
     let segment = SegmentRow { name: kept(name), joint_end: End::Lower };
     Tree::interned(&[segment], &[], &[], Landmarks::NONE, &[])
@@ -137,8 +137,8 @@ fn landmarks(
     })
 }
 
-/// The report's spheres on the segments that there are: on one of the sphere's own name, such as `left_foot`, of a shoulder on its
-/// clavicle, else on one of the name of the report's.
+/// The report's spheres on the existing segments: on one with the sphere's own name, such as `left_foot`; for a
+/// shoulder on its clavicle; else on the report's segment.
 fn spheres(named: &impl Fn(&str) -> Option<Segment>) -> Vec<SphereRow> {
     let row = |row: &SphereRow| {
         let clavicle = row.name.strip_suffix("shoulder").and_then(|side| named(&format!("{side}clavicle")));

@@ -18,18 +18,18 @@ mod spread;
 
 use super::Body;
 
-/// Which regressions hold.
+/// Sex, which selects the regressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sex {
-    /// Those of women.
+    /// Female.
     Female,
-    /// Those of men.
+    /// Male.
     Male,
 }
 
-/// How a body differs from the reference.
+/// Scaling of a body relative to the reference.
 struct Stretch {
-    /// Depth, breadth and length of each part as multiples of the reference's.
+    /// Depth, breadth and length of each part relative to the reference's.
     scale: [[f64; 3]; PARTS],
     mass_kg: [f64; PARTS],
     shoulder_half_width: f64,
@@ -54,22 +54,22 @@ const POUND_KG: f64 = 0.453_592_37;
 /// lbf in s² in kg m².
 const INERTIA_KG_M2: f64 = 0.112_984_829;
 
-/// How many segments a body is divided into.
+/// Division of a body into segments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Division {
-    /// The report's.
+    /// 12, as in the report.
     #[default]
     Twelve,
-    /// With a neck and feet.
+    /// 15, with a neck and feet.
     Fifteen,
-    /// With hands too.
+    /// 17, with hands too.
     Seventeen,
-    /// With clavicles too.
+    /// 19, with clavicles too.
     Nineteen,
 }
 
 impl Division {
-    /// That of so many segments.
+    /// The division with this number of segments.
     pub fn of(segments: i64) -> Option<Division> {
         match segments {
             12 => Some(Division::Twelve),
@@ -89,7 +89,8 @@ impl Division {
     }
 }
 
-/// A part of the reference: weight in lb; principal inertias in lbf in s²; turn of the principal axes about Y in degrees.
+/// A part of the reference: weight in lb; principal inertias in lbf in s²; rotation of the principal axes about Y in
+/// degrees.
 struct Part(f64, [f64; 3], f64);
 
 const REFERENCE: [Part; PARTS] = [
@@ -106,7 +107,7 @@ const REFERENCE: [Part; PARTS] = [
 ];
 /// Half widths of shoulders and hips, inches.
 const REFERENCE_HALF_WIDTHS: [f64; 2] = [6.57, 3.35];
-/// Radius of each standard sphere in inches, the part it grows with, and along which of its axes.
+/// Radius of each standard sphere in inches, the part it scales with, and the axis of that part.
 const REFERENCE_SPHERES: [(f64, usize, usize); 17] = [
     (3.9, H, 2),
     (4.8, UT, 0),
@@ -158,7 +159,7 @@ const BICRISTAL: Measure = [[105.89, 0.06345, 0.6795], [165.83, 0.00934, 1.3616]
 
 const TRUNK_LENGTH: Measure = above(SUPRASTERNALE, TROCHANTERION);
 
-/// The measures with which depth, breadth and length of each part grow.
+/// Measures that scale depth, breadth and length of each part.
 const MEASURES: [[Measure; 3]; PARTS] = [
     [BUTTOCK_DEPTH, HIP_BREADTH, TRUNK_LENGTH],
     [WAIST_DEPTH, WAIST_BREADTH, TRUNK_LENGTH],
@@ -172,7 +173,7 @@ const MEASURES: [[Measure; 3]; PARTS] = [
     [FOREARM_GIRTH, FOREARM_GIRTH, FOREARM_HAND_LENGTH],
 ];
 
-/// The difference of two heights.
+/// Difference of two heights.
 const fn above(upper: Measure, lower: Measure) -> Measure {
     let (mut difference, mut i) = (upper, 0);
     while i < 6 {
@@ -182,7 +183,7 @@ const fn above(upper: Measure, lower: Measure) -> Measure {
     difference
 }
 
-/// Children of 6 and of 10 years: girth and length of each part as multiples of the reference's, and its mass, kg.
+/// Children of 6 and 10 years: girth and length of each part relative to the reference's, and its mass, kg.
 const CHILD_06: [[f64; 3]; PARTS] = [
     [0.6306, 0.6165, 2.764],
     [0.6306, 0.6165, 0.567],
@@ -208,10 +209,10 @@ const CHILD_10: [[f64; 3]; PARTS] = [
     [0.8012, 0.7692, 0.907],
 ];
 
-/// A grown-up.
+/// An adult.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Person {
-    /// Whose regressions hold.
+    /// Sex.
     pub sex: Sex,
     /// Standing height.
     pub stature_m: f64,
@@ -219,32 +220,32 @@ pub struct Person {
     pub mass_kg: f64,
 }
 
-/// Grown-ups that come with the program: the reference itself, and those of 49 CFR 571.208 by their masses, with the
-/// statures that are commonly used with them.
+/// Built-in adults: the reference itself, and those of 49 CFR 571.208 by their masses, with the statures commonly used
+/// with them.
 const PEOPLE: [(&str, Person); 4] = [
     ("female05", Person { sex: Sex::Female, stature_m: 1.511, mass_kg: 46.27 }),
     ("female50", Person { sex: Sex::Female, stature_m: 1.621, mass_kg: 59.3 }),
     ("male50", REFERENCE_PERSON),
     ("male95", Person { sex: Sex::Male, stature_m: 1.869, mass_kg: 97.52 }),
 ];
-/// The person that the reference is.
+/// The reference person: a 50th-percentile male.
 pub const REFERENCE_PERSON: Person = Person { sex: Sex::Male, stature_m: 1.7734, mass_kg: 173.55 * POUND_KG };
 
-/// The persons that [`Person::is_within_reach`] accepts.
-pub const REACH: &str = "a grown-up of 1.4 to 2.05 m with a body mass index of 17 to 45 kg/m²";
+/// Range accepted by [`Person::is_within_reach`].
+pub const REACH: &str = "an adult of 1.4 to 2.05 m with a body mass index of 17 to 45 kg/m²";
 
 impl Person {
-    /// The one of that name.
+    /// The built-in person with this name.
     pub fn named(name: &str) -> Option<Person> {
         PEOPLE.iter().find(|(other, _)| *other == name).map(|(_, person)| *person)
     }
 
-    /// Depth of the chest by stature and mass, a regression of the ANSUR II survey, m.
+    /// Depth of the chest from stature and mass, a regression of the ANSUR II survey, m.
     pub fn chest_depth_m(&self) -> f64 {
         0.25813 - 0.08938 * self.stature_m + 1.7853e-3 * self.mass_kg
     }
 
-    /// Whether the surveys reach such a person: see [`REACH`].
+    /// Whether the person is within the range of the surveys: see [`REACH`].
     pub fn is_within_reach(&self) -> bool {
         (1.4..=2.05).contains(&self.stature_m) && (17.0..=45.0).contains(&(self.mass_kg / self.stature_m.powi(2)))
     }
@@ -255,13 +256,13 @@ impl Person {
         b_0 + b_stature * (1e3 * self.stature_m) + b_mass * self.mass_kg
     }
 
-    /// A measure as a multiple of the reference's.
+    /// A measure relative to the reference's.
     fn ratio(&self, measure: &Measure) -> f64 {
         self.measure(measure) / REFERENCE_PERSON.measure(measure)
     }
 
-    /// The stretch, and the factor by which all masses but head's and neck's were multiplied to reach the person's: far
-    /// from 1, the regressions do not fit this person.
+    /// The scaling, and the factor on all masses except head and neck that gives the person's mass: far from 1, the
+    /// regressions do not fit this person.
     fn stretch(&self) -> (Stretch, f64) {
         let scale = MEASURES.each_ref().map(|measures| measures.each_ref().map(|m| self.ratio(m)));
         let by_volume = |k: usize| REFERENCE[k].0 * POUND_KG * scale[k].iter().product::<f64>();
@@ -273,7 +274,7 @@ impl Person {
         (Stretch { scale, mass_kg, shoulder_half_width, hip_half_width }, factor)
     }
 
-    /// The body, and the factor of its masses: see the module.
+    /// The body, and the factor on its masses: see the module.
     pub fn body(&self, division: Division) -> (Body, f64) {
         let (stretch, factor) = self.stretch();
         (stretch.body(division), factor)
@@ -281,21 +282,21 @@ impl Person {
 }
 
 impl Body {
-    /// The 50th-percentile male (1.773 m, 78.7 kg) of the GEBOD generator with the report's 17 spheres, its neck's joint
-    /// where a dummy's is: `body.preset = "male50"`.
+    /// The 50th-percentile male (1.773 m, 78.7 kg) of the GEBOD generator with the report's 17 spheres, and the neck
+    /// joint of a dummy: `body.preset = "male50"`.
     pub fn male50() -> Self {
         Body { name: "male50".to_owned(), ..REFERENCE_PERSON.body(Division::default()).0 }
     }
 
-    /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none if the
-    /// measurements behind it reach no such person.
+    /// An adult by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none outside the
+    /// range of the surveys.
     pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Option<Self> {
         let person = Person { sex, stature_m, mass_kg };
         person.is_within_reach().then(|| person.body(Division::default()).0)
     }
 }
 
-/// The child of a preset's name.
+/// The child with a preset's name.
 pub fn child(name: &str, division: Division) -> Option<Body> {
     let (rows, [shoulder_m, hip_m]) = match name {
         "child06" => (&CHILD_06, [0.1082, 0.0497]),
@@ -312,18 +313,18 @@ pub fn child(name: &str, division: Division) -> Option<Body> {
     Some(stretch.body(division))
 }
 
-/// How many of a part a body has.
+/// Number of this part in a body: 1 or 2.
 const fn both(part: usize) -> f64 {
     if part < UL { 1.0 } else { 2.0 }
 }
 
 impl Stretch {
-    /// A length of the reference's part in inches along one of its axes, stretched, m.
+    /// Scaled length of a part along one of its axes, m; the reference's is in inches.
     fn along(&self, part: usize, axis: usize, inches: f64) -> f64 {
         self.scale[part][axis] * inches * INCH_M
     }
 
-    /// Principal moments of a part, stretched as second moments of mass, S_xx = (I_y + I_z − I_x)/2, kg m².
+    /// Principal moments of a part, scaled as second moments of mass, S_xx = (I_y + I_z − I_x)/2, kg m².
     fn principal(&self, part: usize) -> [f64; 3] {
         let Part(pounds, [ix, iy, iz], _) = REFERENCE[part];
         let [sx, sy, sz] = self.scale[part];
@@ -342,7 +343,7 @@ impl Stretch {
         body
     }
 
-    /// Distance from the middle plane of the joint that carries a part.
+    /// Distance of a part's joint from the middle plane, m.
     fn half_width_m(&self, part: usize) -> f64 {
         let [shoulder_inch, hip_inch] = REFERENCE_HALF_WIDTHS;
         match part {
@@ -483,7 +484,7 @@ mod tests {
         }
     }
 
-    /// Height of the centre of gravity of a body that stands straight above T1, m.
+    /// Height of the centre of gravity of an upright body above T1, m.
     fn cg_height_m(body: &Body) -> f64 {
         let mut joint_m = vec![0.0; body.segments.len()];
         let mut moment = 0.0;

@@ -4,39 +4,39 @@ use nalgebra::{Point3, Vector3};
 
 use super::Segment;
 
-/// A part of a segment that yields along a line: its mass is a point that slides.
+/// A part of a segment that deforms along a line: its mass is a sliding point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
     /// Unique name, such as `sternum`.
     pub name: String,
-    /// The segment, of whose mass it is a part.
+    /// Its segment; its mass is part of the segment's.
     pub segment: Segment,
-    /// Where its mass is before it yields, from the segment's lower end, segment axes, m.
+    /// Initial position of its mass, from the segment's lower end, segment axes, m.
     pub place_from_lower_end_m: Point3<f64>,
-    /// The way inwards along which it slides, segment axes; any length.
+    /// Inward sliding direction, segment axes; any length.
     pub inward: Vector3<f64>,
     /// m.
     pub mass_kg: f64,
-    /// Depth of the trunk behind it, m: deflections of more than 0.45 of it are told of. None if none is known.
+    /// Depth of the trunk behind it, m: deflections of more than 0.45 of it are reported. None if unknown.
     pub depth_m: Option<f64>,
 }
 
-/// Plates (indices) with the shares of their deflections that something goes along with, each from 0 to 1.
+/// Indices of plates, each with the share of its deflection that is followed, 0 to 1.
 pub type Shares = Vec<(usize, f64)>;
 
-/// How a sphere rides on plates of its segment, by what touches it.
+/// Plates that a sphere rides on, by contact type.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ride {
-    /// Under surfaces, solids and other spheres.
+    /// In contact with surfaces, solids and other spheres.
     pub contact: Shares,
-    /// Under belts.
+    /// In contact with belts.
     pub belt: Shares,
-    /// Under air bags.
+    /// In contact with air bags.
     pub bag: Shares,
 }
 
 impl Ride {
-    /// The plates that it rides on in any way, each once.
+    /// All plates that it rides on, each once.
     pub(crate) fn plates(&self) -> Vec<usize> {
         let all = [&self.contact, &self.belt, &self.bag];
         let mut plates: Vec<usize> = all.into_iter().flatten().map(|(plate, _)| *plate).collect();
@@ -45,7 +45,7 @@ impl Ride {
         plates
     }
 
-    /// The same where the plates stand behind `first` others.
+    /// The ride with plate indices shifted by `first`.
     #[must_use]
     pub(crate) fn behind(&self, first: usize) -> Self {
         let moved = |shares: &Shares| shares.iter().map(|(plate, share)| (first + plate, *share)).collect();
@@ -54,7 +54,7 @@ impl Ride {
 }
 
 impl Chest {
-    /// The same among several bodies, of one with this name whose plates begin at `first`.
+    /// The ride in a model of several bodies, for the body with this name whose plates begin at `first`.
     pub(crate) fn of_member(&self, name: &str, first: usize) -> Self {
         let moved = |shares: &Shares| shares.iter().map(|(plate, share)| (first + plate, *share)).collect();
         let points = self.points.iter().map(|(point, shares)| (point.clone(), moved(shares))).collect();
@@ -62,19 +62,19 @@ impl Chest {
     }
 }
 
-/// A chest that is measured: whose, how deep, and where.
+/// A chest in the results: body, depth, and measuring points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chest {
-    /// Name of the body among several; empty of one alone.
+    /// Name of the body among several; empty for a single one.
     pub of: String,
-    /// The set of plates that it was made from: `person`, `dummy50`, `dummy05f`, or `own`.
+    /// Origin of its plates: `person`, `dummy50`, `dummy05f`, or `own`.
     pub preset: String,
-    /// The plate of the sternum (index).
+    /// Index of the sternum's plate.
     pub breastbone: usize,
-    /// Depth that deflections are compared with, m.
+    /// Reference depth of deflections, m.
     pub depth_m: f64,
-    /// Scale factor of the viscous criterion: 1.3 of dummies by SAE J1727, 1 of people.
+    /// Scale factor of the viscous criterion: 1.3 for dummies by SAE J1727, 1 for people.
     pub viscous_scale: f64,
-    /// Places whose deflections are told besides, as sums over plates: `upper_left`, `lower_right`.
+    /// Further measuring points, as sums over plates: `upper_left`, `lower_right`.
     pub points: Vec<(String, Shares)>,
 }

@@ -7,11 +7,11 @@ use nalgebra::Vector3;
 
 use super::{Body, ContactSphere, Segment, Tree};
 
-/// A sphere beside one of the report's, whose part it belongs to.
+/// A sphere near one of the report's, to whose part it belongs.
 struct Beside {
     name: &'static str,
     of: &'static str,
-    /// Radius, and centre from that sphere's ahead, to the left and up, in its radii.
+    /// Radius, and centre forward, left and up from that sphere's, in its radii.
     radius: f64,
     place: [f64; 3],
 }
@@ -30,8 +30,8 @@ const BESIDE: [Beside; 8] = [
 /// Spheres of the trunk that are parts of their own.
 const TRUNK: [&str; 2] = ["neck", "abdomen"];
 
-/// A row of spheres along a segment from its joint to `end`, in place of the report's sphere of that name, if there is one;
-/// without sides. Radii go straight from that of one sphere to that of another.
+/// A row of spheres along a segment from its joint to `end`, instead of the report's sphere of that name, if there is
+/// one; names without sides. Radii are interpolated linearly between those of two spheres.
 struct Row {
     part: &'static str,
     segment: &'static str,
@@ -48,14 +48,15 @@ const ROWS: [Row; 4] = [
 
 const SIDES: [&str; 2] = ["right", "left"];
 
-/// Spheres of a row are at most so far apart, in their mean radii: their envelope sags by 0.4 of one.
+/// Largest distance between spheres of a row, in mean radii: their envelope sags by 0.4 of one.
 pub const APART: f64 = 1.6;
-/// The same where spheres share their force: HIC and chest of belted drivers change by less than 5 % from here to half of it.
+/// The same for spheres that share their force: HIC and chest loads of belted drivers change by less than 5 % from here
+/// to half of it.
 pub const APART_EVENLY: f64 = 1.2;
-/// Spheres of a row, at most.
+/// Largest number of spheres of a row.
 const MOST_IN_ROW: usize = 24;
 
-/// Height of the neck's middle between the line of the shoulders and the crown.
+/// Height of the neck's middle between the shoulder line and the crown, as a fraction.
 const NECK: f64 = 0.32;
 
 const fn beside(name: &'static str, of: &'static str, radius: f64, place: [f64; 3]) -> Beside {
@@ -66,7 +67,7 @@ const fn row(part: &'static str, segment: &'static str, end: &'static str, radii
     Row { part, segment, end, radii }
 }
 
-/// Every name that a sphere or a part of a body with this tree may have without being given one by a scenario.
+/// All names that spheres or parts of a body with this tree may have without being named by a scenario.
 pub fn names(tree: &Tree) -> Vec<String> {
     let standard = tree.sphere_names().into_iter().chain(BESIDE.iter().map(|b| b.name)).chain(TRUNK);
     let rows = SIDES.iter().flat_map(|side| ROWS.iter().map(move |row| format!("{side}_{}", row.part)));
@@ -74,8 +75,7 @@ pub fn names(tree: &Tree) -> Vec<String> {
     standard.map(str::to_owned).chain(rows.flat_map(in_row)).collect()
 }
 
-/// The spheres without gaps of a body that has `report`, the report's spheres; those of a row at most `apart` mean radii from
-/// each other.
+/// Gapless spheres of a body with the report's spheres `report`; those of a row are at most `apart` mean radii apart.
 pub fn full(body: &Body, report: Vec<ContactSphere>, apart: f64) -> Vec<ContactSphere> {
     let of = |name: &str| report.iter().find(|sphere| sphere.name == name);
     let beside = BESIDE.iter().filter_map(|b| {
@@ -92,7 +92,7 @@ pub fn full(body: &Body, report: Vec<ContactSphere>, apart: f64) -> Vec<ContactS
     kept.chain(beside).chain(trunk.into_iter().flatten()).chain(rows).collect()
 }
 
-/// On the neck, where the body has one, else on the head.
+/// Sphere of the neck, on the neck segment if there is one, else on the head.
 fn neck(body: &Body, head: &ContactSphere) -> ContactSphere {
     let height_m = |segment| body.segment(segment).length_m;
     let (segment, z_m) = match body.tree.segment_named("neck") {
@@ -105,7 +105,7 @@ fn neck(body: &Body, head: &ContactSphere) -> ContactSphere {
     ContactSphere::new("neck", segment, [0.0, 0.0, z_m].into(), 0.62 * head.radius_m)
 }
 
-/// Between chest and pelvis, where the body has a segment there.
+/// Sphere between chest and pelvis, if the body has a segment there.
 fn abdomen(body: &Body, pelvis: &ContactSphere) -> Option<ContactSphere> {
     let marks = body.tree.landmarks();
     let is_between = |s: &Segment| body.tree.is_trunk(*s) && ![marks.chest, marks.pelvis].contains(&Some(*s));
@@ -114,7 +114,7 @@ fn abdomen(body: &Body, pelvis: &ContactSphere) -> Option<ContactSphere> {
     Some(ContactSphere::new("abdomen", middle, centre_m, 0.93 * pelvis.radius_m))
 }
 
-/// The spheres of a row, numbered from the trunk; none where the body lacks what places them.
+/// Spheres of a row, numbered from the trunk; none if the body lacks what positions them.
 fn in_row<'s>(
     body: &Body,
     side: &str,

@@ -5,7 +5,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::tree::{BodyRow, JointRow, Landmarks, Place, SegmentRow, SphereRow, kept};
 use super::{Body, ContactSphere, Joint, Plate, Segment, SegmentProperties, Tree, named};
 
-/// What a part is called of a body with a name, or without one.
+/// Name of a part of a body with or without a name.
 pub(crate) fn called(name: &str, part: &str) -> String {
     if name.is_empty() { part.to_owned() } else { format!("{name}.{part}") }
 }
@@ -36,7 +36,7 @@ impl Body {
         }
     }
 
-    /// Several bodies with names as one, in their order; each name stands before those of its parts.
+    /// Several named bodies as one, in order; each name prefixes those of its parts.
     pub(crate) fn together(all: &[(&str, &Body)]) -> Body {
         let trees: Vec<_> = all.iter().map(|(name, body)| (*name, body.tree)).collect();
         let mut first = 0;
@@ -75,7 +75,7 @@ impl Body {
 }
 
 impl Tree {
-    /// The trees of bodies with these names, one behind the other; each name stands before those of its parts.
+    /// Trees of bodies with these names, concatenated; each name prefixes those of its parts.
     pub(crate) fn together(all: &[(&str, &Tree)]) -> &'static Tree {
         let (mut segments, mut joints, mut spheres, mut bodies) = (vec![], vec![], vec![], vec![]);
         for &(name, tree) in all {

@@ -8,12 +8,12 @@ use std::collections::BTreeSet;
 use std::ops::Index;
 use std::sync::{Mutex, PoisonError};
 
-/// A segment of a tree: its position in the table.
+/// A segment of a tree: its index in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Segment(pub(super) usize);
 
 impl Segment {
-    /// Position in the table, from 0.
+    /// Index in the table, from 0.
     pub const fn index(self) -> usize {
         self.0
     }
@@ -23,18 +23,18 @@ impl Segment {
         self.0 + 1
     }
 
-    /// The same behind `first` others.
+    /// The segment with its index shifted by `first`.
     pub(crate) const fn behind(self, first: usize) -> Self {
         Segment(first + self.0)
     }
 }
 
-/// A joint of a tree: its position in the table.
+/// A joint of a tree: its index in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Joint(pub(super) usize);
 
 impl Joint {
-    /// Position in the table, from 0.
+    /// Index in the table, from 0.
     pub(crate) const fn index(self) -> usize {
         self.0
     }
@@ -45,7 +45,7 @@ impl Joint {
     }
 }
 
-/// An end of a segment; the lower one is lower when the body stands upright with hanging arms.
+/// An end of a segment, named in the standing posture with hanging arms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// The proximal end of a limb.
@@ -63,7 +63,7 @@ pub enum Side {
     Right,
 }
 
-/// A distance from the middle plane that a body gives.
+/// A lateral distance defined by the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
     /// L_s.
@@ -72,67 +72,67 @@ pub enum Width {
     Hip,
 }
 
-/// A row of the table of segments.
+/// Row of the segment table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentRow {
     /// Name in scenarios and result channels.
     pub name: &'static str,
-    /// The end at which the joint is that carries it.
+    /// The end with the joint that carries it.
     pub joint_end: End,
 }
 
 impl SegmentRow {
-    /// True for a segment whose joint is at its upper end, false for one whose joint is at its lower end.
+    /// Whether its joint is at its upper end.
     pub const fn hangs(&self) -> bool {
         matches!(self.joint_end, End::Upper)
     }
 }
 
-/// How the distal segment of a joint can turn.
+/// Degrees of freedom of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointKind {
-    /// Any way.
+    /// All rotations.
     Ball,
     /// About the common Y axis only.
     Hinge,
-    /// About the Y axis, then about the X axis that it carries round; its angle is the first.
+    /// About the Y axis, then about the X axis rotated by the first; its angle is the first.
     Universal,
-    /// Not at all.
+    /// None.
     Fixed,
 }
 
-/// Where a joint is on its proximal segment.
+/// Location of a joint on its proximal segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// At the reference point T1, the joint end of the first segment.
     Root,
     /// At the end opposite to the joint end.
     FarEnd,
-    /// Above that end, by the height that a body gives.
+    /// Above that end, by a height defined by the body.
     Neck,
-    /// Beside that end.
+    /// Lateral to that end.
     Beside(Width, Side),
-    /// Where a body says: [`super::Body::places`].
+    /// Defined by the body: [`super::Body::places`].
     Given,
 }
 
-/// A row of the table of joints.
+/// Row of the joint table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointRow {
     /// Name in scenarios and result channels.
     pub name: &'static str,
-    /// How it turns.
+    /// Kind of motion.
     pub kind: JointKind,
     /// The segment nearer to the root.
     pub proximal: Segment,
     /// The segment that it carries.
     pub distal: Segment,
-    /// Where it is on the proximal segment.
+    /// Location on the proximal segment.
     pub place: Place,
 }
 
 impl JointRow {
-    /// The side that the joint is on.
+    /// The side of the joint.
     pub fn side(&self) -> Option<Side> {
         match self.place {
             Place::Beside(_, side) => Some(side),
@@ -146,42 +146,42 @@ impl JointRow {
         }
     }
 
-    /// Whether this joint is reversed, on the way to a mount beyond it: its distal segment carries the proximal one.
+    /// Whether this joint is reversed, on the path to a mount beyond it: its distal segment carries the proximal one.
     pub fn is_reversed(&self) -> bool {
         self.proximal > self.distal
     }
 
-    /// The segment nearer to the first one, and the one that it carries. Laws speak of proximal and distal segments, which stay
-    /// what they are whatever a body is mounted by.
+    /// The segment nearer to the root, and the one that it carries. Laws use proximal and distal segments, which do not
+    /// depend on the mount.
     pub(crate) fn carrying(&self) -> [Segment; 2] {
         if self.is_reversed() { [self.distal, self.proximal] } else { [self.proximal, self.distal] }
     }
 
-    /// Inner and outer segment of its laws: the proximal and the distal one, but of a hinge, whose axis is that of what it
-    /// carries, [`JointRow::carrying`].
+    /// Inner and outer segment of its laws: proximal and distal; but for a hinge, whose axis belongs to the carried
+    /// segment, [`JointRow::carrying`].
     pub(crate) fn between(&self) -> [Segment; 2] {
         if self.is_hinge() { self.carrying() } else { [self.proximal, self.distal] }
     }
 
-    /// True for elbows and knees, and where two axes are free.
+    /// Whether it is a hinge (elbow, knee) or has two free axes.
     pub const fn is_hinge(&self) -> bool {
         matches!(self.kind, JointKind::Hinge | JointKind::Universal)
     }
 }
 
-/// A row of the table of standard spheres: its centre lies `lengths`·L + `radii`·r above the segment's lower end, L the
+/// Row of the table of standard spheres: its centre is `lengths`·L + `radii`·r above the segment's lower end, L the
 /// segment's length and r the sphere's radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphereRow {
     /// Name in scenarios and result channels.
     pub name: &'static str,
-    /// The segment that carries it.
+    /// Its segment.
     pub segment: Segment,
-    /// Share of the segment's length.
+    /// Factor on the segment's length.
     pub lengths: f64,
-    /// Share of the sphere's own radius.
+    /// Factor on the sphere's own radius.
     pub radii: f64,
-    /// Distance from the middle plane; on it if absent.
+    /// Lateral distance from the middle plane; 0 if absent.
     pub beside: Option<(Width, Side)>,
 }
 
@@ -192,11 +192,11 @@ pub struct Limb {
     pub upper: Segment,
     /// Forearm or lower leg, on a hinge.
     pub lower: Segment,
-    /// Hand or foot, where it is a segment of its own.
+    /// Hand or foot, if it is a separate segment.
     pub end: Option<Segment>,
 }
 
-/// One of each side.
+/// A left–right pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair<T> {
     /// The left one.
@@ -205,16 +205,16 @@ pub struct Pair<T> {
     pub right: T,
 }
 
-/// The parts that instruments are fixed to and that seating asks for; on a mount a body may lack any.
+/// Parts used by instruments and seating; a mounted body may lack any.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landmarks {
-    /// Carries the accelerometer of the head.
+    /// Segment with the head accelerometer.
     pub head: Option<Segment>,
-    /// Carries the accelerometer of the chest.
+    /// Segment with the chest accelerometer.
     pub chest: Option<Segment>,
-    /// Sits on the cushion.
+    /// Segment that sits on the cushion.
     pub pelvis: Option<Segment>,
-    /// Its load is that of the upper neck.
+    /// Joint whose load is that of the upper neck.
     pub neck: Option<Joint>,
     /// Arms.
     pub arms: Pair<Option<Limb>>,
@@ -223,7 +223,7 @@ pub struct Landmarks {
 }
 
 impl Landmarks {
-    /// Of what has no parts with names.
+    /// No landmarks.
     pub const NONE: Landmarks = Landmarks {
         head: None,
         chest: None,
@@ -233,7 +233,7 @@ impl Landmarks {
         legs: Pair { left: None, right: None },
     };
 
-    /// The same with other indices of segments and joints, if they exist.
+    /// The landmarks with mapped indices of segments and joints, where they exist.
     pub(crate) fn map(
         &self,
         segment: impl Fn(Segment) -> Option<Segment>,
@@ -269,21 +269,21 @@ impl Landmarks {
     }
 }
 
-/// The tables of a body. A segment comes after its parent.
+/// Tables of a body. A segment comes after its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tree {
     pub(super) segments: &'static [SegmentRow],
     pub(super) joints: &'static [JointRow],
     pub(super) spheres: &'static [SphereRow],
     pub(super) landmarks: Landmarks,
-    /// Where each of several bodies begins; empty for one alone.
+    /// First segments of several bodies; empty for a single one.
     pub(super) bodies: &'static [BodyRow],
 }
 
-/// A body among others.
+/// A body among several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyRow {
-    /// Its name in scenarios and results; of one alone empty.
+    /// Its name in scenarios and results; empty for a single one.
     pub name: &'static str,
     /// Its first segment.
     pub first: Segment,
@@ -291,24 +291,24 @@ pub struct BodyRow {
     pub landmarks: Landmarks,
 }
 
-/// Joints that make no tree.
+/// Joints that do not form a tree.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TreeProblem {
-    /// A landmark for which there is no segment, by its key in a scenario.
+    /// A missing segment for a landmark, by its key in a scenario.
     #[error("no segment for the landmark `{0}`")]
     MissingLandmark(&'static str),
-    /// A segment that no joint before has named.
+    /// A segment not named by an earlier joint.
     #[error("the joint `{joint}` is on `{segment}`, which no joint before it carries{}", meant(.nearest.as_deref()))]
     UnknownSegment {
         /// Name of the joint.
         joint: String,
         /// Its proximal segment.
         segment: String,
-        /// The nearest name that there is, if one is near.
+        /// The nearest existing name, if any is near.
         nearest: Option<String>,
     },
-    /// A segment that two joints carry, or that carries itself.
+    /// A segment carried by two joints, or by itself.
     #[error("the joint `{joint}` carries `{segment}`, which is there already")]
     Twice {
         /// Name of the joint.
@@ -322,7 +322,7 @@ fn meant(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
-/// A name that lives to the end of the program, stored once for all equal ones.
+/// A name with static lifetime, interned.
 pub(crate) fn kept(name: &str) -> &'static str {
     static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -335,8 +335,8 @@ pub(crate) fn kept(name: &str) -> &'static str {
 }
 
 impl Tree {
-    /// The tree of these tables, in which a segment comes after its parent. It lives to the end of the program, once
-    /// for all equal ones: runs that differ only in numbers share it.
+    /// The tree of these tables, in which a segment comes after its parent. It has static lifetime and is interned:
+    /// runs that differ only in numbers share it.
     pub(crate) fn interned(
         segments: &[SegmentRow],
         joints: &[JointRow],
@@ -379,7 +379,7 @@ impl Tree {
         self.spheres
     }
 
-    /// 6 of each first segment and those of the joints.
+    /// 6 per first segment, plus those of the joints.
     pub(crate) fn degrees_of_freedom(&self) -> usize {
         let free = |row: &JointRow| match row.kind {
             JointKind::Ball => 3,
@@ -395,7 +395,7 @@ impl Tree {
         self.spheres.iter().map(|row| row.name).collect()
     }
 
-    /// The parts of the first body that instruments and seating ask for.
+    /// Landmarks of the first body.
     pub const fn landmarks(&self) -> &Landmarks {
         &self.landmarks
     }
@@ -406,7 +406,7 @@ impl Tree {
         body.map_or(&self.landmarks, |body| &body.landmarks)
     }
 
-    /// All bodies, of one alone that one without a name.
+    /// All bodies; for a single one that one without a name.
     pub fn bodies(&self) -> Vec<BodyRow> {
         let alone = BodyRow { name: "", first: Segment(0), landmarks: self.landmarks };
         if self.bodies.is_empty() { vec![alone] } else { self.bodies.to_vec() }
@@ -417,13 +417,12 @@ impl Tree {
         self.bodies.iter().rposition(|body| body.first <= segment).unwrap_or(0)
     }
 
-    /// The segment at a place in the table. Of one that the table has not, nothing is known: its row has no name, and a model
-    /// refuses it.
+    /// The segment with an index. For an invalid index, its row has no name, and a model refuses it.
     pub const fn segment(&self, index: usize) -> Segment {
         Segment(index)
     }
 
-    /// The joint at a place in the table; of one that the table has not, as [`Tree::segment`] says.
+    /// The joint with an index; for an invalid index as for [`Tree::segment`].
     pub const fn joint(&self, index: usize) -> Joint {
         Joint(index)
     }
@@ -454,7 +453,7 @@ impl Tree {
         self.joints().find(|joint| self[*joint].carrying()[1] == segment)
     }
 
-    /// The joint of which a segment is the distal one; the trunk's middle is that of none.
+    /// The joint whose distal segment is given; none for the middle of the trunk.
     pub(crate) const fn carrier(&self, segment: Segment) -> Option<Joint> {
         let mut j = 0;
         while j < self.joints.len() {
@@ -468,7 +467,7 @@ impl Tree {
 }
 
 impl Tree {
-    /// A segment and those between it and the middle of the trunk, that last.
+    /// A segment and those between it and the middle of the trunk, which comes last.
     pub(crate) fn inwards(&self, segment: Segment) -> impl Iterator<Item = Segment> + Clone + '_ {
         let proximal = |n: &Segment| Some(self[self.carrier(*n)?].proximal);
         std::iter::successors(Some(segment), proximal)
@@ -485,7 +484,7 @@ impl Tree {
         down.into_iter().chain(up.into_iter().rev()).collect()
     }
 
-    /// Whether a segment belongs to a limb: the limb's own, hands, feet and whatever they carry.
+    /// Whether a segment belongs to a limb, including hands, feet and anything they carry.
     pub fn is_of(&self, segment: Segment, limb: &Limb) -> bool {
         self.inwards(segment).any(|n| n == limb.upper)
     }
@@ -520,7 +519,7 @@ pub fn both_sides(name: &str) -> Option<String> {
     Some(one.strip_suffix("foot").map_or_else(|| format!("{one}s"), |stem| format!("{stem}feet")))
 }
 
-/// Rows of what a tree has not.
+/// Rows of missing segments and joints.
 const NOBODY: Segment = Segment(usize::MAX);
 static NO_SEGMENT: SegmentRow = SegmentRow { name: "", joint_end: End::Lower };
 static NO_JOINT: JointRow =

@@ -13,19 +13,19 @@ use crate::model::Model;
 use crate::model::setup::Setup;
 use crate::motion::kinematics::Kinematics;
 
-/// A vehicle that loses less of its speed throws nobody ahead, m/s.
+/// Least loss of speed that throws an occupant forward, m/s.
 const LEAST_LOSS_M_S: f64 = 2.0;
 
-/// An occupant without a belt in a compartment in which neither panel nor windscreen stands ahead of his head.
+/// An unbelted occupant with neither panel nor windscreen in front of the head.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OpenAhead {
     /// The sphere of the head.
     pub sphere: String,
-    /// The speed that his vehicle loses ahead.
+    /// Loss of his vehicle's forward speed, m/s.
     pub loss_m_s: f64,
 }
 
-/// All of them.
+/// All such occupants.
 pub(super) fn open_ahead(model: &Model) -> Vec<OpenAhead> {
     let setup = model.setup();
     if setup.members.is_empty() && setup.is_on_rig() {
@@ -71,10 +71,10 @@ fn one(model: &Model, of: usize, (head, chest): (Segment, Segment), home: Frame)
     (!stands).then(|| OpenAhead { sphere: body.spheres[sphere].name.clone(), loss_m_s })
 }
 
-/// Nothing stands farther ahead in a compartment, m.
+/// Largest forward distance in a compartment, m.
 const FAR_M: f64 = 3.0;
 
-/// Whether a belt goes round any part of a body.
+/// Whether a belt goes around any part of a body.
 fn is_belted(setup: &Setup, of: usize) -> bool {
     let tree = setup.body.tree;
     let own_sphere = |sphere: usize| setup.body.spheres.get(sphere).is_some_and(|s| tree.body_of(s.segment) == of);
@@ -88,7 +88,7 @@ fn is_belted(setup: &Setup, of: usize) -> bool {
     loops || led.any(|is_own| is_own)
 }
 
-/// The box of a surface, a steering wheel aside.
+/// Bounding box of a surface, except a steering wheel.
 fn plate(outline: &Outline) -> Option<Bounds> {
     match outline {
         Outline::Polygon(corners) => Some(Bounds::of(corners)),
@@ -96,7 +96,7 @@ fn plate(outline: &Outline) -> Option<Bounds> {
     }
 }
 
-/// The box of a solid, wheels aside.
+/// Bounding box of a solid, except wheels.
 fn block(shape: &Shape) -> Option<Bounds> {
     match shape {
         Shape::Disc { .. } | Shape::Rim { .. } => None,

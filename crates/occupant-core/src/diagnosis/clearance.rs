@@ -9,9 +9,9 @@ use crate::forces::contact::surface::{Frame, Outline};
 use crate::model::Model;
 use crate::motion::kinematics::Kinematics;
 
-/// Nothing in a compartment is farther away, m.
+/// Largest clearance in a compartment, m.
 const FAR_M: f64 = 1.5;
-/// Rays from a sphere: to both sides, as parts of its radius.
+/// Rays from a sphere: lateral offsets, relative to its radius.
 const RAYS: [[f64; 2]; 9] = [
     [0.0, 0.0],
     [0.5, 0.0],
@@ -24,23 +24,23 @@ const RAYS: [[f64; 2]; 9] = [
     [0.0, -0.85],
 ];
 
-/// Free way of a sphere of the body at the start.
+/// Clearance of a sphere in the initial position.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Clearance {
     /// Name of the sphere.
     pub sphere: String,
-    /// Which way.
+    /// Direction.
     pub way: Way,
-    /// What it would meet first.
+    /// First obstacle.
     pub surface: String,
-    /// How far that is.
+    /// Distance to it, m.
     pub distance_m: f64,
-    /// Where the way begins and ends, axes of the occupant's vehicle; for pictures.
+    /// Ends of its line, axes of the occupant's vehicle, for pictures.
     #[serde(skip)]
     pub ends_m: [[f64; 3]; 2],
 }
 
-/// A way of a sphere in its vehicle.
+/// A direction in the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Way {
@@ -50,7 +50,7 @@ pub enum Way {
     Up,
 }
 
-/// Of all occupants of vehicles.
+/// Clearances of all occupants of vehicles.
 pub fn clearances(model: &Model) -> Vec<Clearance> {
     let (setup, body) = (model.setup(), model.body());
     let (homes, k) = (setup.homes(), Kinematics::new(&model.system().skeleton, &model.start().state));
@@ -94,7 +94,7 @@ impl Way {
     }
 }
 
-/// What of a vehicle a sphere meets first on its way, how far that is from its skin, and where the way begins.
+/// First obstacle of a sphere in its vehicle, its distance from the skin, and the start of the ray.
 fn first(
     model: &Model,
     home: Frame,
@@ -139,7 +139,7 @@ fn in_home(model: &Model, home: Frame, frame: Frame, point: Vector3<f64>) -> Vec
     frame_at_start(model, home).point_to_frame(frame_at_start(model, frame).point_to_space(point))
 }
 
-/// How far along a direction a ray meets a convex polygon, m; none where it does not.
+/// Distance along a ray to a convex polygon, m; none without intersection.
 fn meets(corners: &[Vector3<f64>], start: Vector3<f64>, along: Vector3<f64>) -> Option<f64> {
     let [a, b, c, ..] = corners else { return None };
     let normal = (b - a).cross(&(c - a));

@@ -18,7 +18,7 @@ use placed_text::Problems;
 /// Stability number above which a warning is due: where 1 + z + z²/2 + z³/6 + z⁴/24 = 1 on the negative real axis.
 pub(super) const LIMIT: f64 = 2.785;
 
-/// A sphere's friction against one material that was too strong for the step.
+/// Friction of a sphere on a material that was unstable at the step size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UnstableFriction {
     /// Name of the sphere.
@@ -27,21 +27,21 @@ pub struct UnstableFriction {
     pub surface: String,
     /// Name of its material.
     pub material: String,
-    /// When the number was largest.
+    /// Time of the largest stability number, s.
     pub time_s: f64,
-    /// Normal force then.
+    /// Normal force at that time.
     pub normal_force_n: f64,
-    /// The number.
+    /// The stability number.
     pub number: f64,
     /// The step.
     pub step_s: f64,
 }
 
-/// Watches the normal forces of a run at its output times; remembers the worst of each sphere and material.
+/// Monitors the normal forces of a run at its outputs; keeps the worst of each sphere and material.
 #[derive(Clone, Debug, Default)]
 pub struct FrictionWatch {
     masses: Option<FrictionMasses>,
-    /// 0 under error control, which finds a stable step by itself.
+    /// 0 under error control, which finds a stable step.
     step_s: f64,
     /// By sphere and material.
     worst: Vec<Worst>,
@@ -56,12 +56,12 @@ struct Worst {
 }
 
 impl FrictionWatch {
-    /// Nothing seen yet.
+    /// Empty.
     pub fn new() -> Self {
         FrictionWatch::default()
     }
 
-    /// What was unstable in the run of `model`, once for each sphere and material, in the body's order.
+    /// Unstable friction in the run of `model`, once per sphere and material, in the body's order.
     pub fn unstable(&self, model: &Model) -> Vec<UnstableFriction> {
         let setup = model.setup();
         let materials = setup.materials.len().max(1);
@@ -79,7 +79,7 @@ impl FrictionWatch {
             .collect()
     }
 
-    /// The same as warnings, one for each material: the worst sphere in figures, the others by name.
+    /// The same as warnings, one per material: numbers of the worst sphere, names of the others.
     pub fn warnings(&self, model: &Model) -> Problems {
         let mut problems = Problems::new();
         let unstable = self.unstable(model);
@@ -107,7 +107,7 @@ impl FrictionWatch {
     }
 }
 
-/// Words for the worst sphere on a material.
+/// Warning text for the worst sphere on a material.
 fn warn(problems: &mut Problems, worst: &UnstableFriction, others: &[&str]) {
     let step_ms = worst.step_s * 1e3;
     let also = match others {

@@ -11,20 +11,20 @@ use crate::forces::contact::surface::Frame;
 use crate::model::Model;
 use crate::motion::kinematics::Kinematics;
 
-/// A lap belt that begins so that it slides up on the iliac wings.
+/// A lap belt that would slide up on the iliac wings from the start.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LapBelt {
     /// Name of the belt.
     pub belt: String,
-    /// What it goes over: a sphere or a segment.
+    /// Its support: a sphere or a segment.
     pub part: String,
-    /// Angle of its pull against the wings' normal, positive towards the abdomen.
+    /// Angle of its pull to the wings' normal, positive towards the abdomen.
     pub angle_rad: f64,
-    /// The angle to which friction holds it.
+    /// Largest angle held by friction.
     pub held_rad: f64,
 }
 
-/// All of them.
+/// All such belts.
 pub(super) fn sliding(model: &Model) -> Vec<LapBelt> {
     let setup = model.setup();
     let loops = setup.belts.iter().filter_map(|belt| {
@@ -35,7 +35,7 @@ pub(super) fn sliding(model: &Model) -> Vec<LapBelt> {
     loops.chain(setup.chains.iter().filter_map(|chain| of_chain(model, chain))).collect()
 }
 
-/// A belt over several nodes: what of it is on the pelvis between two nodes of the vehicle.
+/// A belt over several nodes: its part on the pelvis between two vehicle nodes.
 fn of_chain(model: &Model, chain: &Chain) -> Option<LapBelt> {
     let body = model.body();
     let on = |node: &Node| match &node.site {
@@ -64,7 +64,7 @@ fn is_pelvis(model: &Model, segment: Segment) -> bool {
     model.body().tree.landmarks_at(segment).pelvis == Some(segment)
 }
 
-/// A belt over a place of the pelvis, from its lower end, with anchors in a frame; none that friction holds.
+/// A belt over a point of the pelvis, from its lower end, with anchors in a frame; none if friction holds it.
 fn one(
     model: &Model,
     belt: &str,

@@ -31,7 +31,7 @@ use crate::motion::mobility::Mobility;
 use crate::vehicle::{PathCursor, VehiclePath};
 use rates::FrictionMasses;
 
-/// What will be simulated.
+/// Description of a simulation before it is run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diagnosis {
     /// The scenario's title.
@@ -42,46 +42,46 @@ pub struct Diagnosis {
     pub run: RunFigures,
     /// Motion of the vehicle.
     pub vehicle: VehicleFigures,
-    /// How many surfaces and solids there are.
+    /// Number of surfaces and solids.
     pub surfaces: usize,
     /// Seating, if the body was seated.
     pub seat: Option<SeatStart>,
-    /// Pairs that exert a force at the start.
+    /// Sphere-surface pairs with a force at the start.
     pub contacts: Vec<ContactStart>,
-    /// Materials that rub.
+    /// Materials with friction.
     pub friction: Vec<FrictionFigures>,
-    /// Spheres that start behind a surface and do not feel it until they have come out.
+    /// Spheres that start behind a surface and have no contact until they have come out.
     pub behind: Vec<SphereBehind>,
-    /// Occupants without a belt in whose way ahead neither panel nor windscreen stands.
+    /// Unbelted occupants with neither panel nor windscreen in front.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub open_ahead: Vec<OpenAhead>,
-    /// Lap belts that begin so that they slide up on the iliac wings.
+    /// Lap belts that would slide up on the iliac wings from the start.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lap_belts: Vec<LapBelt>,
-    /// What stands before head, chest and knees, and over the head.
+    /// Clearances in front of head, chest and knees, and above the head.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub clearances: Vec<Clearance>,
-    /// How belts lie on shoulders once they pull.
+    /// Position of belts on the shoulders under load.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub shoulder_belts: Vec<ShoulderBelt>,
-    /// Corners of two surfaces within reach that a sphere may come round without touching either.
+    /// Corners between two surfaces within reach, around which a sphere may move without contact.
     pub corners: Vec<[String; 2]>,
-    /// Parts of the body with those that they can touch.
+    /// Parts of the body, and those that they can touch.
     pub self_contact: InOrder<String, Vec<String>>,
-    /// Force elements that have something to say of themselves.
+    /// Tables of force elements.
     #[serde(flatten)]
     pub elements: Tables,
-    /// Contact springs, by sphere.
+    /// Time scales of contact springs, by sphere.
     pub sphere_rates: Vec<SphereRate>,
-    /// Of all other force elements: springs and dampers.
+    /// Time scales of all other force elements: springs and dampers.
     pub other_rates: Vec<Rate>,
-    /// The fastest of all.
+    /// The shortest time scale.
     pub fastest: Option<Rate>,
-    /// step/time scale of the fastest; absent where the error control chooses the step.
+    /// Step over the shortest time scale; absent under error control.
     pub step_by_time_scale: Option<f64>,
 }
 
-/// The occupant in figures.
+/// Key numbers of the occupant.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyFigures {
     /// Name of the body.
@@ -94,11 +94,11 @@ pub struct BodyFigures {
     pub degrees_of_freedom: usize,
     /// Contact spheres.
     pub spheres: usize,
-    /// What is weak about its numbers.
+    /// Known weakness of its numbers.
     pub weak: Option<&'static str>,
 }
 
-/// A segment in figures.
+/// Key numbers of a segment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SegmentFigures {
     /// Name.
@@ -107,11 +107,11 @@ pub struct SegmentFigures {
     pub mass_kg: f64,
     /// Length.
     pub length_m: f64,
-    /// Between which lengths 90 % of people of the body's sex, stature and mass are, if it is such a person's.
+    /// Range of lengths of 90 % of the people with the body's sex, stature and mass, if it is a person's.
     pub length_band_m: Option<[f64; 2]>,
 }
 
-/// The run in figures.
+/// Key numbers of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RunFigures {
     /// Start.
@@ -122,7 +122,7 @@ pub struct RunFigures {
     pub output_s: f64,
     /// Outputs.
     pub outputs: usize,
-    /// Which integrator.
+    /// The integrator.
     pub integrator: &'static str,
     /// Fixed step; absent under error control.
     pub step_s: Option<f64>,
@@ -130,7 +130,7 @@ pub struct RunFigures {
     pub gravity_m_s2: f64,
 }
 
-/// The vehicle in figures.
+/// Key numbers of the vehicle's motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct VehicleFigures {
     /// Kind of path.
@@ -139,19 +139,19 @@ pub struct VehicleFigures {
     pub start_speed_m_s: f64,
     /// Speed at the end.
     pub end_speed_m_s: f64,
-    /// Magnitude of the change of velocity between them.
+    /// Magnitude of the velocity change between them.
     pub velocity_change_m_s: f64,
     /// Peak deceleration, m/s², and duration, s, of its pulse, if the path is one.
     pub pulse: Option<[f64; 2]>,
 }
 
 impl Diagnosis {
-    /// False if the fixed step is too long for the fastest rate; true where it is not known to be.
+    /// False if the fixed step is too long for the shortest time scale; true if not known to be.
     pub fn step_is_stable(&self) -> bool {
         self.step_by_time_scale.is_none_or(|number| number < RK4_STABILITY_LIMIT)
     }
 
-    /// The rates that the fixed step is too long for.
+    /// Time scales for which the fixed step is too long.
     pub fn too_fast(&self) -> Vec<&Rate> {
         let all = self.sphere_rates.iter().map(|s| &s.rate).chain(&self.other_rates);
         let limit_s = self.run.step_s.map_or(0.0, |step_s| step_s / RK4_STABILITY_LIMIT);
@@ -159,7 +159,7 @@ impl Diagnosis {
     }
 }
 
-/// Looks at the start of a run.
+/// Examines the start of a run.
 pub fn diagnose(model: &Model) -> Diagnosis {
     let setup = model.setup();
     let step_s = setup.fixed_step_s();
@@ -203,7 +203,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
     }
 }
 
-/// How the body of `model` gives way at the start.
+/// Mobility of the body of `model` at the start.
 fn mobility_of(model: &Model) -> Mobility<'_> {
     Mobility::new(&model.system().skeleton, &model.start().state)
 }

@@ -18,16 +18,16 @@ use crate::motion::mobility::{Mobility, across, greatest};
 use crate::motion::vector::V3;
 use crate::vehicle::{FrameMotion, PathCursor};
 
-/// step·rate at which the classical Runge–Kutta method becomes unstable, on the imaginary axis; 2.785 on the real one.
+/// Stability limit step·rate of the classical Runge–Kutta method on the imaginary axis; 2.785 on the real one.
 pub const RK4_STABILITY_LIMIT: f64 = 2.8;
 
-/// What a sphere meets: its stiffest contact and the friction that the step can bear.
+/// Stiffest contact of a sphere, and the largest friction that is stable at the step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereRate {
     /// The spring rate; `by` is the material.
     #[serde(flatten)]
     pub rate: Rate,
-    /// Normal force up to which friction is stable at the step; absent without friction or with a step under error control.
+    /// Normal force up to which friction is stable at the step; absent without friction or under error control.
     pub friction_limit_n: Option<f64>,
     /// The surface of that limit.
     pub friction_surface: Option<String>,
@@ -42,7 +42,7 @@ pub(super) struct FrictionMasses {
 }
 
 impl FrictionMasses {
-    /// For every sphere and every surface that it can touch.
+    /// Masses for all spheres and the surfaces that they can touch.
     pub(super) fn new(model: &Model, mobility: &Mobility<'_>) -> Self {
         let surfaces = model.setup().surface_names().count();
         let mut tangential_kg = vec![0.0; surfaces * model.body().spheres.len()];
@@ -52,7 +52,7 @@ impl FrictionMasses {
         FrictionMasses { surfaces, tangential_kg }
     }
 
-    /// step·f/(v_s·m_eff): with the normal force the friction's rate times the step, unstable above 2.
+    /// step·f/(v_s·m_eff): times the normal force it is step × friction rate, unstable above 2.
     pub(super) fn per_newton(&self, model: &Model, sphere: usize, surface: usize, step_s: f64) -> f64 {
         let mass_kg = self.tangential_kg[sphere * self.surfaces + surface];
         let material = material_of(model.setup(), surface);
@@ -60,7 +60,7 @@ impl FrictionMasses {
     }
 }
 
-/// Pairs of sphere and surface that can touch; a sphere of the body is a surface to another.
+/// Pairs of sphere and surface that can touch; spheres of the body count as surfaces for others.
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     let contacts = &model.system().forces.contacts;
     let faces = contacts.groups.iter().flat_map(move |group| {
@@ -91,7 +91,7 @@ fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: us
     1.0 / greatest(across(&mobility.of_point(site.segment, point), &normal))
 }
 
-/// N̂ of a surface, or of a solid as seen from `centre`, space axes.
+/// N̂ of a surface, or of a solid at `centre`, space axes.
 fn normal_in_space(model: &Model, centre: V3<f64>, surface: usize) -> Vector3<f64> {
     let (frame, normal) = match model.faces().get(surface) {
         Some(face) => (face.frame, face.normal),
@@ -111,7 +111,7 @@ pub(super) fn frame_at_start(model: &Model, frame: Frame) -> FrameMotion {
     frame_at(model, frame, model.setup().time.start_s)
 }
 
-/// Motion of a frame at a time, s; of one that a body carries, at the start.
+/// Motion of a frame at a time, s; for one carried by a body, at the start.
 pub(super) fn frame_at(model: &Model, frame: Frame, time_s: f64) -> FrameMotion {
     let vehicle = model.setup().path.motion(time_s, time_s, &mut PathCursor::default());
     let all = model.frames_with(time_s, time_s, &vehicle);
@@ -123,7 +123,7 @@ pub(super) fn frame_at(model: &Model, frame: Frame, time_s: f64) -> FrameMotion 
     }
 }
 
-/// The stiffest contact of each sphere that can touch anything.
+/// The stiffest contact of each sphere.
 pub(super) fn of_spheres(
     model: &Model,
     mobility: &Mobility<'_>,
@@ -160,7 +160,7 @@ pub(super) fn of_spheres(
     (0..setup.body.spheres.len()).filter_map(one).collect()
 }
 
-/// The strongest damping of each sphere that factors of speed and dampers of what it can touch make up.
+/// The strongest damping of each sphere, from rate factors and dampers of its contacts.
 pub(super) fn of_dampers(model: &Model, mobility: &Mobility<'_>) -> Vec<Rate> {
     let (setup, system) = (model.setup(), model.system());
     let damping = |(sphere, surface): (usize, usize)| {

@@ -12,15 +12,15 @@ use crate::results::sample::Sample;
 pub struct ShoulderBelt {
     /// Name of the belt.
     pub belt: String,
-    /// The segment that it lies on.
+    /// The segment that supports it.
     pub part: String,
-    /// How far from the neck towards the arm it comes to lie once it pulls, 0 to 1.
+    /// Position from the neck towards the arm under load, 0 to 1.
     pub share: f64,
-    /// How it lies there.
+    /// Its state there.
     pub lies: OnShoulder,
 }
 
-/// All of them.
+/// All shoulder belts.
 pub(super) fn all(sample: &Sample<'_>) -> Vec<ShoulderBelt> {
     let chains = &sample.model.setup().chains;
     if chains.is_empty() {

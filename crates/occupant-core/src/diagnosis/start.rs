@@ -21,14 +21,14 @@ use crate::results::recorder::Watch;
 use crate::results::sample::{Contact, Sample};
 use crate::run::Course;
 
-/// Figures of the seating, vehicle axes.
+/// Key numbers of the seating, vehicle axes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SeatStart {
     /// Name of the cushion.
     pub cushion: String,
     /// Name of the back.
     pub back: String,
-    /// Depth to which the pelvis sinks into the cushion.
+    /// Penetration of the pelvis into the cushion.
     pub sink_m: f64,
     /// Centre of the pelvis sphere.
     pub pelvis_m: [f64; 3],
@@ -38,13 +38,13 @@ pub struct SeatStart {
     pub thighs_deg: f64,
     /// Lean of the lower legs.
     pub lower_legs_deg: f64,
-    /// Outcome of settling, if it was asked for.
+    /// Result of settling, if requested.
     pub settled: Option<Settled>,
-    /// What is left over without it.
+    /// Imbalance without settling.
     pub unsettled: Option<Settled>,
 }
 
-/// A pair that exerts a force at the start.
+/// A pair with a force at the start.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactStart {
     /// Name of the sphere.
@@ -55,26 +55,26 @@ pub struct ContactStart {
     pub depth_m: f64,
     /// Normal force.
     pub normal_force_n: f64,
-    /// Friction, as it is with so little slip.
+    /// Friction force at the initial sliding speed.
     pub friction_n: f64,
-    /// What it comes to where it slips fast.
+    /// Friction force at full sliding.
     pub full_friction_n: f64,
 }
 
-/// What a material's friction is below its full value.
+/// Friction of a material below its full value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrictionFigures {
     /// Name of the material.
     pub material: String,
     /// f.
     pub coefficient: f64,
-    /// v_s, slip at which friction reaches 71 % of its full value.
+    /// v_s, sliding speed at which friction is 71 % of its full value.
     pub speed_m_s: f64,
-    /// With which speed a body creeps down a slope of 10° on it; none if it slides.
+    /// Creep speed of a body on a slope of 10°; none if it slides.
     pub creeps_m_s: Option<f64>,
 }
 
-/// Friction of the materials that something is made of.
+/// Friction of the materials in use.
 pub(super) fn friction(model: &Model) -> Vec<FrictionFigures> {
     let setup = model.setup();
     let used = |i: &usize| (0..setup.surface_names().count()).any(|surface| setup.surface_material(surface) == *i);
@@ -95,7 +95,7 @@ pub(super) fn friction(model: &Model) -> Vec<FrictionFigures> {
 /// tan 10°.
 const TAN_10: f64 = 0.176_326_980_708_464_98;
 
-/// A sphere whose centre starts behind a surface, in front of which a user would look for it.
+/// A sphere whose centre starts behind a surface, where a user would expect it in front.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereBehind {
     /// Name of the sphere.
@@ -106,7 +106,7 @@ pub struct SphereBehind {
     pub behind_m: f64,
 }
 
-/// What the first sample of a run tells.
+/// Data from the first sample of a run.
 #[derive(Default)]
 pub(super) struct Look {
     pub contacts: Vec<ContactStart>,
@@ -194,7 +194,7 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
     behind
 }
 
-/// Convex corners of two surfaces that are nearer to the body than it can reach.
+/// Convex corners of two surfaces within reach of the body.
 pub(super) fn corners(model: &Model) -> Vec<[String; 2]> {
     let (setup, faces) = (model.setup(), model.faces());
     let t1_m = model.start().state.t1().to_vector();
@@ -209,7 +209,7 @@ pub(super) fn corners(model: &Model) -> Vec<[String; 2]> {
     corners.map(|pair| pair.map(|i| setup.surfaces[i].name.clone())).collect()
 }
 
-/// Which parts of the body can touch which others.
+/// Contacts possible within the body.
 pub(super) fn self_contact(model: &Model) -> InOrder<String, Vec<String>> {
     let part = |sphere: usize| model.body().spheres[sphere].part.clone();
     let mut list: InOrder<String, Vec<String>> = InOrder::new();

@@ -24,38 +24,39 @@ use placed_text::Problems;
 /// The implementing type is only a name; the types of its law and memory are associated types. A kind may use the body,
 /// its motion and the frames, and knows no other kind.
 pub trait Element: Copy + Debug {
-    /// Whether results speak of the kind only where a model has elements of it.
+    /// Whether results list the kind only where a model has elements of it.
     const OPTIONAL: bool = false;
-    /// Sums of other kinds (places) that the elements add to as well.
+    /// Work sums of other kinds (indices) to which the elements also contribute.
     const SHARES: &'static [usize] = &[];
-    /// Energies that the elements hold, of which the first is their first place in the energy ledger.
+    /// Energies that the elements store; the first is also their first place in the energy ledger.
     const STORED: &'static [StoredEnergy];
-    /// The work sums that they add to.
+    /// Work sums to which they contribute.
     const SUMS: &'static [WorkSum];
-    /// Name in messages of one of them, and many.
+    /// Name in messages, singular and plural.
     const NAMES: [&'static str; 2];
 
-    /// What a setup says of them.
+    /// Setup data of the elements.
     type Data<'a>: Copy;
     /// Constants of the law.
     type Law<S>;
-    /// Memory of one element between steps: numbers that change only at accepted steps.
+    /// Memory of one element between steps: numbers that change at accepted steps only.
     type Past<S>;
-    /// What spares an evaluation needless work. No result depends on it.
+    /// Data that save evaluations unnecessary work, without effect on results.
     type Hints<S: Scalar>: Hints<S>;
-    /// What one of them does at one instant.
+    /// State of one element at one instant: forces, energies.
     type Action<S>;
 
     /// Reports problems of the data alone.
     fn check(data: Self::Data<'_>, body: &Body, problems: &mut Problems);
 
-    /// Constants that do not depend on where the body is.
+    /// Constants that do not depend on the position of the body.
     fn new(data: Self::Data<'_>, body: &Body) -> Self::Law<f64>;
 
-    /// Constants that follow from where the body is, while it settles with locked joints and at the start of the run.
+    /// Constants that follow from the position of the body, called during settling with locked joints and at the start
+    /// of the run.
     fn lay(_law: &mut Self::Law<f64>, _data: Self::Data<'_>, _body: &Body, _at: &Instant<'_, f64>) {}
 
-    /// Constants that follow from where the body is at the start of the run alone, and what is wrong with the start.
+    /// Constants that follow from the position of the body at the start of the run only; reports problems of the start.
     fn begin(
         _law: &mut Self::Law<f64>,
         _data: Self::Data<'_>,
@@ -65,14 +66,14 @@ pub trait Element: Copy + Debug {
     ) {
     }
 
-    /// Appends the initial state variables of the elements, scaled to the order of 1; each element notes its own.
+    /// Appends the initial state variables of the elements, scaled to the order of 1; each element keeps its index.
     fn own(_law: &mut Self::Law<f64>, _numbers: &mut Vec<f64>) {}
 
     /// Initial memory of each element for a body at rest in its position.
     fn start(law: &Self::Law<f64>, at: &Instant<'_, f64>) -> Vec<Self::Past<f64>>;
 
-    /// Updates the memory after the body has moved a little, enough for evaluations that do not commit. Also updates
-    /// `hints`. Returns the number of elements that an evaluation visits.
+    /// Updates memory and `hints` after a small motion of the body, enough for evaluations that do not commit. Returns
+    /// the number of elements that an evaluation visits.
     fn restart(
         law: &Self::Law<f64>,
         at: &Instant<'_, f64>,
@@ -83,10 +84,10 @@ pub trait Element: Copy + Debug {
         past.len()
     }
 
-    /// Hints that leave nothing out.
+    /// Hints that skip nothing.
     fn hints<S: Scalar>(law: &Self::Law<S>) -> Self::Hints<S>;
 
-    /// How long the step may be that begins at the commit which left these hints.
+    /// Largest length of the step that begins at the commit that left these hints.
     fn pace<S: Scalar>(_hints: &Self::Hints<S>) -> Pace<S> {
         Pace::any()
     }
@@ -94,7 +95,7 @@ pub trait Element: Copy + Debug {
     /// Number of elements with a memory.
     fn count<S>(law: &Self::Law<S>) -> usize;
 
-    /// How many may act at one instant.
+    /// Largest number of elements that act at one instant.
     fn most_actions<S>(law: &Self::Law<S>) -> usize {
         Self::count(law)
     }
@@ -109,13 +110,13 @@ pub trait Element: Copy + Debug {
         f: &impl Fn(S, A) -> T,
     ) -> Result<Self::Law<T>, Unlike>;
 
-    /// Calls f with every number that two memories contain, in one order.
+    /// Calls f with each pair of corresponding numbers of two memories, in a fixed order.
     fn each<S, A>(one: &mut Self::Past<S>, other: &mut Self::Past<A>, f: &mut impl FnMut(&mut S, &mut A));
 
-    /// A memory with every number replaced by f of it, in the order of [`Element::each`].
+    /// Memory with each number replaced by f of it, in the order of [`Element::each`].
     fn map<A: Copy, S>(past: &Self::Past<A>, f: &mut impl FnMut(A) -> S) -> Self::Past<S>;
 
-    /// Whether this is a possible memory of the element with this number.
+    /// Whether this is a possible memory of the element with this index.
     fn is_possible(_law: &Self::Law<f64>, _number: usize, _past: &Self::Past<f64>) -> bool {
         true
     }
@@ -126,12 +127,12 @@ pub trait Element: Copy + Debug {
         None
     }
 
-    /// Whether their memory can jump, because an element can switch in a run. A mere change of slope does not count.
+    /// Whether the memory can jump because an element can switch during a run. A change of slope does not count.
     fn can_switch(_law: &Self::Law<f64>) -> bool {
         false
     }
 
-    /// What of one's memory jumps when it switches, as a number: another wherever anything has switched.
+    /// Switch state of an element, as a number that differs after each switch.
     #[inline(always)]
     fn switches<S: Scalar>(_past: &Self::Past<S>) -> S {
         S::zero()
@@ -158,7 +159,7 @@ pub trait Element: Copy + Debug {
         None
     }
 
-    /// Brings a memory back into range after its numbers were changed a little.
+    /// Restores a memory to its permitted range after small changes of its numbers.
     fn confine(_past: &mut Self::Past<f64>) {}
 
     /// Adds forces and powers to `load` and passes on every action. At an accepted step each element first updates its
@@ -172,7 +173,7 @@ pub trait Element: Copy + Debug {
         show: &mut impl FnMut(&Self::Action<S>),
     );
 
-    /// The fastest rates of the equations of motion that they make where the body begins, each acting alone.
+    /// Fastest rates that the elements add to the equations of motion at the start, each acting alone.
     fn rates(
         _data: Self::Data<'_>,
         _body: &Body,
@@ -183,30 +184,30 @@ pub trait Element: Copy + Debug {
         Vec::new()
     }
 
-    /// The segment whose body's ledger contains an action (number).
+    /// Segment whose body's energy ledger contains an action (index).
     fn segment(law: &Self::Law<f64>, spheres: &[Site<f64>], number: usize, action: &Self::Action<f64>) -> usize;
 
-    /// Writes the energies of [`Element::STORED`], from all actions at one instant, to their places, J.
+    /// Writes the energies of [`Element::STORED`] at one instant to their places, J.
     fn stored_j(actions: &[Self::Action<f64>], stored_j: &mut [f64; STORES]);
 }
 
-/// Where on the straight way from one number to another, greater one a level is reached, as a part of the way. Its slopes are
-/// those of what is left to the level behind the way.
+/// Fraction of the linear path from one number to another, greater one at which a level is reached. Beyond the path,
+/// its derivatives are those of the remaining difference.
 pub(crate) fn passes<S: Scalar>(level: S, before: S, now: S) -> S {
     let way = (now - before).value_alone();
     S::select(now.gt(before), S::one() + (level - now) / way, S::zero())
 }
 
-/// What spares an evaluation needless work.
+/// Data that save evaluations unnecessary work.
 pub trait Hints<S: Scalar>: Clone + Debug {
-    /// Becomes what `other`, of the same elements, is; allocates nothing.
+    /// Copies `other`, of the same elements, without allocation.
     fn take_over(&mut self, other: &Self);
 
     /// Visits every element in these lanes until the next commit, as required if the memory belongs to another
     /// position.
     fn look_again(&mut self, lanes: S::Mask);
 
-    /// Becomes what `other`, of the same elements, is in these lanes.
+    /// Copies `other`, of the same elements, in these lanes.
     fn blend(&mut self, other: &Self, lanes: S::Mask);
 }
 
@@ -220,28 +221,28 @@ impl<S: Scalar> Hints<S> for () {
     fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
 }
 
-/// An energy that the elements of a kind store, or have lost according to their memory.
+/// Energy stored by the elements of a kind, or dissipated according to their memory.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredEnergy {
-    /// Its place in the energy ledger.
+    /// Index in the energy ledger.
     pub at: usize,
-    /// What it is called in results.
+    /// Name in results.
     pub quantity: Quantity<Energy>,
-    /// The work sum that also holds it; none if it follows from the posture alone.
+    /// Work sum that also contains it; none if it follows from the posture alone.
     pub held_by: Option<HeldBy>,
 }
 
-/// A work sum that holds a stored energy as well: what is dissipated is the sum less what is stored since the start.
+/// Work sum that contains a stored energy: dissipation is the sum less the change of stored energy since the start.
 #[derive(Clone, Copy, Debug)]
 pub struct HeldBy {
-    /// Its place.
+    /// Index of the sum.
     pub sum: usize,
-    /// The field in which a result file keeps the energy at the start of the run.
+    /// Field of a result file for the energy at the start of the run.
     pub start: FieldWords,
 }
 
 impl HeldBy {
-    /// The sum at a place, and the field of the energy at the start.
+    /// The sum with this index, and the field of the energy at the start.
     pub(crate) const fn sum(sum: usize, number: u32, stem: &'static str, meaning: &'static str) -> Option<Self> {
         Some(HeldBy { sum, start: FieldWords { number, stem, meaning } })
     }
@@ -250,22 +251,22 @@ impl HeldBy {
 /// A sum of work in [`Work::sums`].
 #[derive(Clone, Copy, Debug)]
 pub struct WorkSum {
-    /// Its place there and among the losses of the energy ledger.
+    /// Index there and among the losses of the energy ledger.
     pub at: usize,
-    /// What the loss is called in results.
+    /// Name of the loss in results.
     pub quantity: Quantity<Energy>,
 }
 
-/// Where the body and the frames are at one instant, and how they move.
+/// Positions and velocities of the body and the frames at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant<'a, S> {
-    /// Places and velocities of the segments.
+    /// Positions and velocities of the segments.
     pub k: &'a Kinematics<S>,
     /// State.
     pub state: &'a State<S>,
     /// Frames.
     pub frames: &'a Frames<S>,
-    /// Motion of the segments that carry faces.
+    /// Motion of the segments that carry contact faces.
     pub carried: &'a [Moving<S>],
     /// Spheres of the bodies.
     pub spheres: &'a [Site<S>],
@@ -274,13 +275,13 @@ pub struct Instant<'a, S> {
 }
 
 impl<'a, S: Scalar> Instant<'a, S> {
-    /// Motion of a frame, or of a segment that carries faces, which stand behind all frames.
+    /// Motion of a frame, or of a segment that carries faces; the latter have indices after all frames.
     #[inline(always)]
     pub(crate) fn frame(&self, index: usize) -> &'a Moving<S> {
         if index < MOST_FRAMES { &self.frames[index] } else { &self.carried[index - MOST_FRAMES] }
     }
 
-    /// A sphere's centre under a use in the axes of a frame, m.
+    /// Centre of a sphere for this use, in axes of the frame, m.
     #[inline(always)]
     pub(crate) fn centre_in(&self, sphere: usize, by: Use, frame: usize) -> V3<S> {
         let frame = self.frame(frame);
@@ -289,39 +290,39 @@ impl<'a, S: Scalar> Instant<'a, S> {
     }
 }
 
-/// Legs of all bodies.
+/// Largest number of legs of all bodies.
 pub(crate) const MOST_LEGS: usize = 2 * MOST_BODIES;
 /// Most frames that yield.
 pub(crate) const MOST_GIVING: usize = 4;
 
-/// Loads on the segments but gravity, and their powers.
+/// Loads on the segments except gravity, and their powers.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<S> {
     /// By segment.
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// By body, W.
     pub power: [Work<S>; MOST_BODIES],
-    /// Forces of each body on the frames that yield, and their moments about the origin of space, space axes, N and N·m.
+    /// Forces of each body on the yielding frames, and their moments about the origin of space, space axes, N and N·m.
     pub(crate) onto: [[Wrench<S>; MOST_GIVING]; MOST_BODIES],
-    /// Behind the place there of each frame that yields; 0 of others.
+    /// One plus the index there of each yielding frame; 0 of other frames.
     giving: [u8; MOST_FRAMES],
     body_of: [u8; MOST_SEGMENTS],
     bodies: usize,
-    /// Rates of the numbers of the state that force elements own, which each writes anew, 1/s.
+    /// Rates of the state variables that force elements own, 1/s; each element writes its own at every evaluation.
     pub own: [S; MOST_OWN],
-    /// By segment: the moment of all but joints, N·m.
+    /// By segment: moment of all loads except joints, N·m.
     pub(crate) outer: [V3<S>; MOST_SEGMENTS],
-    /// By leg: what acts on the spheres at its knee, space axes, N.
+    /// By leg: force on the spheres at its knee, space axes, N.
     pub(crate) knees: [V3<S>; MOST_LEGS],
-    /// Forces on what rides on each plate times its share, space axes, N.
+    /// By plate: forces on the points that move with it, weighted by their shares, space axes, N.
     pub(crate) rides: [V3<S>; MOST_SLIDES],
-    /// S, what resists the deflection of each plate, N.
+    /// Generalized resistance S of each plate, N.
     pub(crate) resist: [S; MOST_SLIDES],
     segments: usize,
 }
 
 impl<S: Scalar> Load<S> {
-    /// None yet, where these frames yield.
+    /// Zero loads with these yielding frames.
     #[inline(always)]
     pub(crate) fn zero(layout: &Layout, giving: impl IntoIterator<Item = usize>) -> Self {
         let mut body_of = [0; MOST_SEGMENTS];
@@ -342,7 +343,7 @@ impl<S: Scalar> Load<S> {
         load
     }
 
-    /// None of as many segments.
+    /// Sets all loads to zero for this number of segments.
     #[inline(always)]
     pub(crate) fn clear(&mut self, segments: usize, slides: usize) {
         self.wrench[..segments].fill(Wrench::zero());
@@ -354,15 +355,15 @@ impl<S: Scalar> Load<S> {
         self.resist[..slides].fill(S::zero());
     }
 
-    /// Keeps the moments so far: those that come are of joints.
+    /// Stores the moments so far; later ones are of joints.
     #[inline(always)]
     pub(crate) fn end_of_outer(&mut self) {
         let both = self.outer.iter_mut().zip(&self.wrench).take(self.segments);
         both.for_each(|(outer, wrench)| *outer = wrench.moment);
     }
 
-    /// Notes a force on a sphere under a use, in space axes, N, where it is `live`: for the plates that the sphere rides on, and of
-    /// one at a knee.
+    /// Notes a force on a sphere for this use, space axes, N, in the `live` lanes: for the plates that it moves with
+    /// and for a sphere at a knee.
     #[inline(always)]
     pub(crate) fn press(&mut self, site: &Site<S>, by: Use, force: V3<S>, live: S::Mask) {
         if let Some(riding) = site.riding(by) {
@@ -373,7 +374,7 @@ impl<S: Scalar> Load<S> {
         *on = V3::select(live, *on + force, *on);
     }
 
-    /// Notes a force on what rides on plates, in space axes, N, where it is `live`.
+    /// Notes a force on a point that moves with plates, space axes, N, in the `live` lanes.
     #[inline(always)]
     pub(crate) fn ride(&mut self, riding: &Riding<S>, force: V3<S>, live: S::Mask) {
         for (plate, share) in riding.plates() {
@@ -382,14 +383,14 @@ impl<S: Scalar> Load<S> {
         }
     }
 
-    /// How many bodies there are.
+    /// Number of bodies.
     #[inline(always)]
     pub(crate) fn bodies(&self) -> usize {
         self.bodies
     }
 
-    /// Notes that a frame feels the opposite of a force on a segment that acts at a point, and of a moment beside it, in space axes, N,
-    /// m and N·m, where it is `live`.
+    /// Adds the reaction to a frame of a force on a segment at a point, and of a moment, space axes, N, m and N·m, in
+    /// the `live` lanes.
     #[inline(always)]
     pub(crate) fn push(&mut self, [frame, segment]: [usize; 2], force: V3<S>, at: V3<S>, twist: V3<S>, live: S::Mask) {
         let Some(place) = self.giving.get(frame).and_then(|behind| behind.checked_sub(1)) else { return };
@@ -399,7 +400,7 @@ impl<S: Scalar> Load<S> {
         onto.moment = V3::select(live, onto.moment - at.cross(force) - twist, onto.moment);
     }
 
-    /// Books the power that the body of one segment gives to that of another, if they are two, where they are `live`, W.
+    /// Books power that the body of one segment gives to that of another, if they differ, in the `live` lanes, W.
     #[inline(always)]
     pub(crate) fn hand_over(&mut self, [from, to]: [usize; 2], power: S, live: S::Mask) {
         if self.body_of[from] != self.body_of[to] {
@@ -410,7 +411,7 @@ impl<S: Scalar> Load<S> {
         }
     }
 
-    /// The powers of the body of a segment.
+    /// Powers of the body of a segment.
     #[inline(always)]
     pub(crate) fn power_at(&mut self, segment: usize) -> &mut Work<S> {
         // no more bodies than powers
@@ -418,34 +419,34 @@ impl<S: Scalar> Load<S> {
     }
 }
 
-/// What keeps two systems from being computed side by side, as text.
+/// Reason why two systems cannot be computed side by side, as text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unlike(pub &'static str);
 
-/// A memory that elements cannot have.
+/// Mismatch between a memory and its elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Misfit {
-    /// Another number of them.
+    /// Different number of elements.
     #[error("the checkpoint has {found} {of}, the scenario {expected}")]
     Count {
-        /// Of what.
+        /// Kind of element.
         of: &'static str,
-        /// In the checkpoint.
+        /// Number in the checkpoint.
         found: usize,
-        /// In the model.
+        /// Number in the model.
         expected: usize,
     },
-    /// One is in a state in which none can be.
+    /// Impossible state of an element.
     #[error("the checkpoint's {of} {number} is in no possible state")]
     Impossible {
-        /// What it is.
+        /// Kind of element.
         of: &'static str,
-        /// Its number.
+        /// Index of the element.
         number: usize,
     },
-    /// A number that is not finite.
+    /// Number that is not finite.
     #[error("the checkpoint holds numbers that are not finite")]
     NotFinite,
 }

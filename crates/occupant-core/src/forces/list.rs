@@ -24,36 +24,36 @@ use crate::motion::state::WORK_SUMS;
 use crate::quantity::{Energy, Quantity};
 use placed_text::Problems;
 
-/// Everything that goes over all kinds, for the kinds in the order in which their forces are added.
+/// Code for all kinds of elements, in the order in which their forces are added.
 macro_rules! kinds {
     ($($kind:ident: $Kind:ident),+ $(,)?) => {
-        /// How many kinds there are.
+        /// Number of kinds.
         pub(crate) const KINDS: usize = [$(stringify!($kind)),+].len();
 
-        /// How many energies they hold.
+        /// Number of stored energies.
         pub(crate) const STORES: usize = 0 $(+ $Kind::STORED.len())+;
 
-        /// The energies that elements hold, in the order of results.
+        /// Stored energies, in the order of results.
         pub(crate) const STORED: [StoredEnergy; STORES] = stored_in_order([$($Kind::STORED),+]);
 
-        /// The work sums of the elements, in their order in [`crate::motion::state::Work`].
+        /// Work sums of the elements, in their order in [`crate::motion::state::Work`].
         pub(crate) const SUMS: [WorkSum; WORK_SUMS] = sums_in_order([$($Kind::SUMS),+]);
 
-        /// What a setup says of all force elements.
+        /// Setup data of all force elements.
         #[derive(Clone, Copy)]
         #[allow(missing_docs, reason = "one field for each kind")]
         pub struct Data<'a> {
             $(pub $kind: <$Kind as Element>::Data<'a>),+
         }
 
-        /// Force laws of everything that acts on the body.
+        /// Force laws of all elements.
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "one field for each kind")]
         pub struct Forces<S> {
             $(pub $kind: <$Kind as Element>::Law<S>),+
         }
 
-        /// What force elements remember between steps: plain numbers that a run carries on.
+        /// Memory of the force elements between steps: plain numbers that a run carries on.
         #[derive(Clone, Debug, PartialEq)]
         #[allow(missing_docs, reason = "one field for each kind")]
         pub struct Memory<S> {
@@ -65,14 +65,14 @@ macro_rules! kinds {
             $($kind: <$Kind as Element>::Hints<S>),+
         }
 
-        /// What all force elements do at one instant.
+        /// State of all force elements at one instant.
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "one field for each kind")]
         pub struct Actions<S> {
             $(pub $kind: Vec<<$Kind as Element>::Action<S>>),+
         }
 
-        /// Receives what happens in an evaluation.
+        /// Receives the actions of an evaluation.
         #[allow(missing_docs, reason = "one method for each kind")]
         pub trait Observer<S> {
             $(
@@ -81,7 +81,7 @@ macro_rules! kinds {
             )+
         }
 
-        /// Collects everything.
+        /// Collects all actions.
         impl<S: Copy> Observer<S> for Actions<S> {
             $(
                 #[inline(always)]
@@ -91,7 +91,7 @@ macro_rules! kinds {
             )+
         }
 
-        /// Follows everything, in the order of the kinds.
+        /// Calls a follower for all kinds, in their order.
         #[derive(Debug)]
         pub(crate) struct Follow<T>(pub T);
 
@@ -104,7 +104,8 @@ macro_rules! kinds {
             )+
         }
 
-        /// Sees what another sees, or nothing: one kernel for what is observed now and then.
+        /// Passes everything to another observer, or nothing: one kernel for evaluations that are observed now and
+        /// then.
         impl<S, O: Observer<S>> Observer<S> for Option<&mut O> {
             $(
                 #[inline(always)]
@@ -139,17 +140,17 @@ macro_rules! kinds {
         }
 
         impl<S> Actions<S> {
-            /// Room for all that `forces` can do.
+            /// Reserves space for all actions of `forces`.
             pub fn with_room(forces: &Forces<impl Sized>) -> Self {
                 Actions { $($kind: Vec::with_capacity($Kind::most_actions(&forces.$kind))),+ }
             }
 
-            /// Nothing yet.
+            /// Clears all actions.
             pub fn clear(&mut self) {
                 $(self.$kind.clear();)+
             }
 
-            /// Becomes what `other` is; allocates nothing if there is room.
+            /// Copies `other`, without allocation if the space suffices.
             pub(crate) fn take_over(&mut self, other: &Self)
             where
                 S: Copy,
@@ -162,7 +163,7 @@ macro_rules! kinds {
         }
 
         impl Actions<f64> {
-            /// Shows all to who follows it, in the order of the kinds.
+            /// Passes all actions to a follower, in the order of the kinds.
             pub(crate) fn follow(&self, tracker: &mut impl Tracker<f64>) {
                 $(self.$kind.iter().for_each(|action| $Kind::track(action, tracker));)+
             }
@@ -174,7 +175,7 @@ macro_rules! kinds {
                 list
             }
 
-            /// Stored energies of what acts on one of several bodies, J.
+            /// Stored energies of the elements that act on one of several bodies, J.
             pub(crate) fn stored_of(
                 &self,
                 forces: &Forces<f64>,
@@ -199,7 +200,7 @@ macro_rules! kinds {
         }
 
         impl Data<'_> {
-            /// Reports problems of the data by themselves, in the order of [`STORED`], then of what stores nothing.
+            /// Reports problems of the data alone, in the order of [`STORED`], then of elements that store nothing.
             pub(crate) fn check(&self, body: &Body, problems: &mut Problems) {
                 let mut found = [const { Problems::new() }; STORES + 1];
                 $(
@@ -209,7 +210,7 @@ macro_rules! kinds {
                 found.into_iter().for_each(|some| problems.extend(some));
             }
 
-            /// The fastest rates that they make where the body begins; see [`Element::rates`].
+            /// Fastest rates of the elements at the start; see [`Element::rates`].
             pub(crate) fn rates(
                 &self,
                 body: &Body,
@@ -229,17 +230,17 @@ macro_rules! kinds {
                 Forces { $($kind: Default::default()),+ }
             }
 
-            /// Laws for a body that has no place yet.
+            /// Laws of a body without a position yet.
             pub(crate) fn new(data: &Data<'_>, body: &Body) -> Self {
                 Forces { $($kind: $Kind::new(data.$kind, body)),+ }
             }
 
-            /// Takes over where the body is while it settles or begins; see [`Element::lay`].
+            /// Constants that depend on the position, during settling or at the start; see [`Element::lay`].
             pub(crate) fn lay(&mut self, data: &Data<'_>, body: &Body, at: &Instant<'_, f64>) {
                 $($Kind::lay(&mut self.$kind, data.$kind, body, at);)+
             }
 
-            /// Takes over where the body begins; see [`Element::begin`].
+            /// Constants that depend on the initial position; see [`Element::begin`].
             pub(crate) fn begin(
                 &mut self,
                 data: &Data<'_>,
@@ -250,19 +251,20 @@ macro_rules! kinds {
                 $($Kind::begin(&mut self.$kind, data.$kind, body, at, problems);)+
             }
 
-            /// The numbers of the state that elements own, as they begin; see [`Element::own`].
+            /// Initial state variables that elements own; see [`Element::own`].
             pub(crate) fn own(&mut self) -> Vec<f64> {
                 let mut numbers = Vec::new();
                 $($Kind::own(&mut self.$kind, &mut numbers);)+
                 numbers
             }
 
-            /// What all remember of a body that stands where it is.
+            /// Initial memory of all elements of a body at rest in its position.
             pub(crate) fn start(&self, at: &Instant<'_, f64>) -> History<f64> {
                 History::new(self, Memory { $($kind: $Kind::start(&self.$kind, at)),+ })
             }
 
-            /// The same of a body that moves from place to place, for evaluations without a commit; see [`Element::restart`].
+            /// Memory for a body that moves from position to position, for evaluations without a commit; see
+            /// [`Element::restart`].
             pub(crate) fn restart(&self, at: &Instant<'_, f64>, history: &mut History<f64>) -> usize {
                 let History { memory, hints } = history;
                 0 $(+ $Kind::restart(&self.$kind, at, &mut memory.$kind, &mut hints.$kind))+
@@ -270,7 +272,7 @@ macro_rules! kinds {
         }
 
         impl<S: Copy> Forces<S> {
-            /// Whether results tell an energy of [`STORED`] or [`SUMS`]; see [`Element::OPTIONAL`].
+            /// Whether results list an energy of [`STORED`] or [`SUMS`]; see [`Element::OPTIONAL`].
             pub(crate) fn tells(&self, energy: &Quantity<Energy>) -> bool {
                 let field = |energy: &Quantity<Energy>| energy.field.map(|words| words.number);
                 let is = |own: Quantity<Energy>| field(&own) == field(energy);
@@ -292,8 +294,8 @@ macro_rules! kinds {
         }
 
         impl<S: Scalar> Forces<S> {
-            /// All loads and powers at one instant. At an accepted step the history first takes over the present position;
-            /// within a step it is only read.
+            /// All loads and powers at one instant. At an accepted step the history is first updated with the present
+            /// position; within a step it is only read.
             #[inline(always)]
             pub(crate) fn apply(
                 &self,
@@ -314,14 +316,14 @@ macro_rules! kinds {
         }
 
         impl Forces<f64> {
-            /// Whether anything can switch; see [`Element::can_switch`].
+            /// Whether any element can switch; see [`Element::can_switch`].
             pub(crate) fn can_switch(&self) -> bool {
                 false $(|| $Kind::can_switch(&self.$kind))+
             }
         }
 
         impl<S: Scalar> Memory<S> {
-            /// Where something has switched between this and `now`, of the same elements.
+            /// Lanes where an element has switched between this memory and `now`, of the same elements.
             #[inline(always)]
             pub fn has_switched(&self, now: &Self) -> S::Mask {
                 S::truth(false) $(| $Kind::any_switched::<S>(&self.$kind, &now.$kind))+
@@ -329,7 +331,7 @@ macro_rules! kinds {
         }
 
         impl Memory<f64> {
-            /// What has switched between this and `now`, of the same elements: what such an element is called, and its number.
+            /// Elements that have switched between this memory and `now`: their kind and index.
             pub fn switched(&self, now: &Self) -> Vec<(&'static str, usize)> {
                 let mut list = Vec::new();
                 $(
@@ -342,7 +344,7 @@ macro_rules! kinds {
         }
 
         impl<S: Scalar<Mask = bool>> Memory<S> {
-            /// Where between this and `now` the first switch was due; see [`Element::due`].
+            /// When the first switch between this memory and `now` was due; see [`Element::due`].
             pub fn due(&self, now: &Self, forces: &Forces<S>, times_s: [S; 2]) -> Due<S> {
                 let mut due = Due { share: S::of(f64::INFINITY), is_known: true };
                 $(
@@ -358,12 +360,12 @@ macro_rules! kinds {
         }
 
         impl<S> Memory<S> {
-            /// That of no elements.
+            /// Memory of no elements.
             pub fn none() -> Self {
                 Memory { $($kind: Vec::new()),+ }
             }
 
-            /// f called with every number and the one in the same place of `other`, of the same elements.
+            /// Calls f with each pair of corresponding numbers of two memories of the same elements.
             pub fn each<A>(&mut self, other: &mut Memory<A>, f: &mut impl FnMut(&mut S, &mut A)) {
                 $(
                     for (one, other) in self.$kind.iter_mut().zip(&mut other.$kind) {
@@ -374,7 +376,7 @@ macro_rules! kinds {
         }
 
         impl<S: Copy> Memory<S> {
-            /// The same with every number replaced by f of it, in the order of [`Memory::each`].
+            /// Memory with each number replaced by f of it, in the order of [`Memory::each`].
             pub fn map<T>(&self, f: &mut impl FnMut(S) -> T) -> Memory<T> {
                 Memory { $($kind: self.$kind.iter().map(|past| $Kind::map(past, f)).collect()),+ }
             }
@@ -385,7 +387,7 @@ macro_rules! kinds {
         }
 
         impl Memory<f64> {
-            /// Exchanges everything with a result file; see [`Reported::keep`].
+            /// Reads or writes everything in a result file; see [`Reported::keep`].
             pub(crate) fn keep(&mut self, like: Option<&Self>, file: &mut dyn Archive) {
                 $($Kind::keep(&mut self.$kind, like.map(|all| &all.$kind[..]), file);)+
             }
@@ -422,12 +424,12 @@ macro_rules! kinds {
                 if is_finite { Ok(()) } else { Err(Misfit::NotFinite) }
             }
 
-            /// What of elements with these data could not be worked out; see [`Element::failure`].
+            /// Elements with these data that could not be computed; see [`Element::failure`].
             pub(crate) fn failure(&self, data: &Data<'_>, law: &Forces<f64>) -> Option<String> {
                 None$(.or_else(|| $Kind::failure(data.$kind, &law.$kind, &self.$kind)))+
             }
 
-            /// Brings all back into range after numbers were changed a little.
+            /// Restores everything to its permitted range after small changes of the numbers.
             pub fn confine(&mut self) {
                 $(self.$kind.iter_mut().for_each($Kind::confine);)+
             }
@@ -474,33 +476,33 @@ kinds! {
     muscles: Muscles,
 }
 
-/// A kind of the list, with its part of all that goes over all kinds.
+/// A kind of the list, with access to its part of the data of all kinds.
 pub trait Listed: Reported {
-    /// What a setup says of it.
+    /// Its setup data.
     fn data<'a>(all: &Data<'a>) -> Self::Data<'a>;
     /// Its law.
     fn law<S>(all: &Forces<S>) -> &Self::Law<S>;
-    /// What it remembers.
+    /// Its memory.
     fn past<S>(all: &Memory<S>) -> &[Self::Past<S>];
-    /// What it does.
+    /// Its actions.
     fn actions<S>(all: &Actions<S>) -> &[Self::Action<S>];
 }
 
-/// What is done with every kind of the list.
+/// An operation on every kind of the list.
 pub trait Visitor {
-    /// Does it with one.
+    /// The operation on one kind.
     fn visit<E: Listed>(&mut self);
 }
 
-/// Sees nothing.
+/// Ignores everything.
 impl<S> Observer<S> for () {}
 
 /// When the first of several switches was due.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Due<S> {
-    /// As a part of the way between two memories; of one that cannot tell, the middle.
+    /// Fraction of the interval between two memories; the middle for one that is unknown.
     pub share: S,
-    /// Whether all can tell.
+    /// Whether all are known.
     pub is_known: bool,
 }
 
@@ -511,56 +513,56 @@ impl<S: Scalar> Due<S> {
     }
 }
 
-/// What force elements remember between steps, changed only at accepted steps, and what spares them work.
+/// Memory of the force elements between steps, changed only at accepted steps, and hints that save work.
 #[derive(Clone, Debug)]
 pub struct History<S: Scalar> {
-    /// All that a run carries on.
+    /// Everything that a run carries on.
     pub memory: Memory<S>,
     hints: AllHints<S>,
 }
 
 impl<S: Scalar> History<S> {
-    /// What elements of `forces` remember; nothing is left out until the first commit.
+    /// Initial history of the elements of `forces`; nothing is skipped until the first commit.
     pub fn new(forces: &Forces<S>, memory: Memory<S>) -> Self {
         History { memory, hints: AllHints::new(forces) }
     }
 
-    /// Becomes what `other`, a history of the same elements, is.
+    /// Copies `other`, a history of the same elements.
     pub fn take_over(&mut self, other: &History<S>) {
         self.memory.take_over(&other.memory);
         self.hints.take_over(&other.hints);
     }
 
-    /// How long the step may be that begins at the latest commit, of one that was to be `h`, s.
+    /// Length of the step that begins at the latest commit, given the planned length `h`, s.
     #[inline(always)]
     pub(crate) fn step(&self, h: S) -> S {
         self.hints.pace().step(h)
     }
 
-    /// Lets the next commit look at everything, as it must where the remembered numbers are those of another place.
+    /// Makes the next commit visit all elements, as required if the memory belongs to another position.
     pub(crate) fn look_again(&mut self) {
         self.look_again_in(S::truth(true));
     }
 
-    /// The same in these lanes alone.
+    /// The same in these lanes only.
     pub(crate) fn look_again_in(&mut self, lanes: S::Mask) {
         self.hints.look_again(lanes);
     }
 
-    /// Leaves out in these lanes what `other`, a history of the same elements, leaves out.
+    /// Copies the hints of `other`, a history of the same elements, in these lanes.
     #[cfg(any(target_arch = "x86_64", test))]
     #[inline(always)]
     pub(crate) fn blend_hints(&mut self, other: &History<S>, lanes: S::Mask) {
         self.hints.blend(&other.hints, lanes);
     }
 
-    /// How long the step may be that begins at the latest commit.
+    /// Largest length of the step that begins at the latest commit.
     #[cfg(any(target_arch = "x86_64", test))]
     pub(crate) fn pace(&self) -> Pace<S> {
         self.hints.pace()
     }
 
-    /// Leaves nothing out, and lets the step be as long as `pace` says, which was found where the numbers were remembered.
+    /// Skips nothing, and limits the step to `pace`, which was found where the numbers were stored.
     #[cfg(any(target_arch = "x86_64", test))]
     pub(crate) fn begin_anew(&mut self, forces: &Forces<S>, pace: Pace<S>) {
         self.hints = AllHints::new(forces);
@@ -571,8 +573,8 @@ impl<S: Scalar> History<S> {
 
 #[cfg(any(target_arch = "x86_64", test))]
 impl History<f64> {
-    /// Stores what `memory` does, of a later place. What is far from touching stays left out where no contact has begun or
-    /// ended meanwhile.
+    /// Stores `memory`, of a later position. Elements far from contact stay skipped where no contact has begun or ended
+    /// meanwhile.
     pub(crate) fn remember(&mut self, memory: &Memory<f64>) {
         let contacts = self.memory.contacts.iter().zip(&memory.contacts);
         let is_like = contacts.clone().all(|(own, other)| own.phase == other.phase);
@@ -583,7 +585,7 @@ impl History<f64> {
     }
 }
 
-/// A function that brings what kinds list to its places, of which each must be taken once.
+/// A function that writes the entries of all kinds to their places, of which each must be used once.
 macro_rules! in_order {
     ($name:ident, $Type:ty, $count:expr) => {
         const fn $name(kinds: [&[$Type]; KINDS]) -> [$Type; $count] {

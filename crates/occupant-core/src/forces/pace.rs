@@ -2,23 +2,23 @@
 
 use crate::motion::scalar::Scalar;
 
-/// How long the step may be that begins at the latest commit.
+/// Largest length of the step that begins at the latest commit.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace<S> {
-    /// Steps up to this long see all that comes, s.
+    /// Length up to which a step needs no limit, s.
     free: S,
-    /// Longer ones end here, s.
+    /// Limit for longer steps, s.
     until: S,
 }
 
 impl<S: Scalar> Pace<S> {
-    /// Whatever length.
+    /// No limit.
     #[inline(always)]
     pub(crate) fn any() -> Self {
         Pace { free: S::of(f64::INFINITY), until: S::of(f64::INFINITY) }
     }
 
-    /// Where `here`, steps longer than `free` are to end at `until`, both in s.
+    /// In the lanes `here`, limits steps longer than `free` to `until`, both in s.
     #[inline(always)]
     pub(crate) fn bound(&mut self, here: S::Mask, free: S, until: S) {
         self.free = S::select(here, self.free.min(free), self.free);
@@ -37,13 +37,13 @@ impl<S: Scalar> Pace<S> {
         Pace { free: f(self.free), until: f(self.until) }
     }
 
-    /// What is within both.
+    /// The stricter of both limits.
     #[inline(always)]
     pub(crate) fn and(self, other: Self) -> Self {
         Pace { free: self.free.min(other.free), until: self.until.min(other.until) }
     }
 
-    /// The length of a step that was to be `h`, s.
+    /// Length of a step with the planned length `h`, s.
     #[inline(always)]
     pub(crate) fn step(&self, h: S) -> S {
         S::select(self.free.lt(h), h.min(self.until), h)

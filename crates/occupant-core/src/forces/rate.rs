@@ -10,7 +10,7 @@ use serde::Serialize;
 pub struct Rate {
     /// Name of the sphere, belt or joint.
     pub of: String,
-    /// What makes it: the material, the belt's sphere, or the joint's damper or spring.
+    /// Source: the material, the belt's sphere, or the joint's damper or spring.
     pub by: String,
     /// Effective mass in kg, or effective inertia in kg·m².
     pub effective: f64,
@@ -21,12 +21,12 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// Of a spring.
+    /// Rate of a spring.
     pub(crate) fn of_spring(of: String, by: String, effective: f64, stiffness: f64) -> Rate {
         Rate { of, by, effective, coefficient: stiffness, time_scale_s: (effective / stiffness).sqrt() }
     }
 
-    /// Of a damper, if there is any.
+    /// Rate of a damper, if there is any.
     pub(crate) fn of_damper(of: &str, inertia_kg_m2: f64, damping_n_m_s: f64) -> Option<Rate> {
         (damping_n_m_s > 0.0).then(|| Rate {
             of: of.to_owned(),

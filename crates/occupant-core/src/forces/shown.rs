@@ -14,55 +14,56 @@ use crate::body::Body;
 use crate::motion::scalar::Scalar;
 use crate::quantity::{Owner, Quantity};
 
-/// A kind of force element in results. Result files, summaries, tables, studies, pictures and sensitivities know a kind by
-/// this alone.
+/// A kind of force element in results. Result files, summaries, tables, studies, pictures and sensitivities access a
+/// kind by this trait only.
 ///
-/// A kind whose elements have names has an action for each at every output, in the order of the names.
+///
+/// A kind with named elements has an action for each at every output, in the order of the names.
 pub trait Reported: Element + 'static {
-    /// Message type of one of them in the result file; its topic is that of the word for one and the element's name.
+    /// Message type of an element in the result file; its topic is the singular name of the kind and the element's
+    /// name.
     const MESSAGE: &'static str = "";
-    /// Fields of that message and time histories of one of them.
+    /// Fields of that message, and time histories of an element.
     const QUANTITIES: &'static [Quantity<OneOf<Self>>] = &[];
-    /// Numbers of an element whose peaks a run's summary reports.
+    /// Quantities of an element whose peaks the summary of a run lists.
     const PEAKS: &'static [Tracked] = &[];
 
-    /// Whether a run's summary has a table of their peaks.
+    /// Whether the summary of a run has a table of their peaks.
     const SHOWS_PEAKS: bool = true;
-    /// Whether a run's summary reports their events: [`Reported::event`].
+    /// Whether the summary of a run lists their events: [`Reported::event`].
     const TELLS: bool = false;
 
-    /// Shows what one of them does to who follows it: the numbers of [`Reported::PEAKS`] in their order.
+    /// Passes the values of [`Reported::PEAKS`], in their order, to a tracker.
     #[inline(always)]
     fn track<S: Scalar>(_action: &Self::Action<S>, _tracker: &mut impl Tracker<S>) {}
 
-    /// Exchanges their memory with a result file; at the start of a step `like` is their memory at the output.
+    /// Reads or writes their memory in a result file; at the start of a step, `like` is their memory at the output.
     fn keep(_past: &mut Vec<Self::Past<f64>>, _like: Option<&[Self::Past<f64>]>, _file: &mut dyn Archive) {}
 
-    /// Names of the elements and the spheres that they act on.
+    /// Names of the elements and the spheres on which they act.
     fn named<'a>(_data: Self::Data<'a>) -> Vec<Named<'a>> {
         Vec::new()
     }
 
-    /// What there is to know of them at the start of a run.
+    /// Table of the elements at the start of a run.
     fn start_table(_shown: &Shown<'_, Self>) -> Option<Table> {
         None
     }
 
-    /// Lines that pictures draw.
+    /// Lines in pictures.
     fn lines(_shown: &Shown<'_, Self>) -> Vec<Line> {
         Vec::new()
     }
 
-    /// Plane figures that pictures draw.
+    /// Plane figures in pictures.
     fn sections(_shown: &Shown<'_, Self>) -> Vec<Section> {
         Vec::new()
     }
 
-    /// Shows every force on a sphere but those of contacts, which have points and depths of their own.
+    /// Shows every force on a sphere except those of contacts, which have points and depths of their own.
     fn pulls(_shown: &Shown<'_, Self>, _show: &mut dyn FnMut(&Pull<'_>)) {}
 
-    /// Shows what has switched between two commits: the place of each action, and what it did in words as of
-    /// [`Reported::event`].
+    /// Shows switches between two commits: the index of each action, and the event as text of [`Reported::event`].
     fn switched(
         _law: &Self::Law<f64>,
         _before: &[Self::Past<f64>],
@@ -86,17 +87,17 @@ pub trait Reported: Element + 'static {
     /// report.
     const BY_STEPS: &'static [&'static str] = &[];
 
-    /// Shows what has happened to one of them between two accepted steps, by the numbers that it tracks there.
+    /// Shows the events of an element between two accepted steps, by its tracked values there.
     fn told(_before: &[f64], _now: &[f64], _show: &mut dyn FnMut(&'static str)) {}
 
-    /// What has happened to one of them between two looks, in words that follow its name, and by how much its force jumps, N;
-    /// nothing if only a slope changes.
+    /// Event of an element between two evaluations, as text that follows its name, and the jump of its force, N; none
+    /// for a mere change of slope.
     fn event<S: Scalar>(_before: &Self::Action<S>, _now: &Self::Action<S>) -> Option<(&'static str, Option<S>)> {
         None
     }
 }
 
-/// One element of a kind, as the owner of quantities.
+/// One element of a kind, as owner of quantities.
 #[derive(Clone, Copy, Debug)]
 pub struct OneOf<E>(PhantomData<E>);
 
@@ -106,15 +107,15 @@ impl<E: Reported> Owner for OneOf<E> {
 
 /// The elements of one kind at one output.
 pub struct Shown<'a, E: Element> {
-    /// What the setup says of them.
+    /// Setup data.
     pub data: E::Data<'a>,
-    /// Their law.
+    /// Law.
     pub law: &'a E::Law<f64>,
-    /// What they do.
+    /// Actions.
     pub actions: &'a [E::Action<f64>],
     /// The body.
     pub body: &'a Body,
-    /// Centre of a sphere under a use, vehicle axes, m.
+    /// Centre of a sphere for a use, vehicle axes, m.
     pub centre_m: &'a dyn Fn(usize, Use) -> Point3<f64>,
     /// A point of a frame, axes of the first vehicle, m.
     pub place_m: &'a dyn Fn(Frame, Point3<f64>) -> Point3<f64>,
@@ -125,22 +126,22 @@ pub struct Shown<'a, E: Element> {
 pub struct Named<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Index of the sphere that it acts on; none of what acts in a joint.
+    /// Index of the sphere on which it acts; none for a joint.
     pub sphere: Option<usize>,
 }
 
-/// A line that pictures draw for an element.
+/// Line of an element in pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Name of the element.
     pub name: String,
-    /// Its points, vehicle axes, m.
+    /// Points, vehicle axes, m.
     pub points_m: Vec<Point3<f64>>,
     /// Force along it, N.
     pub force_n: f64,
 }
 
-/// A plane figure that pictures draw for an element, such as a section of a bag.
+/// Plane figure of an element in pictures, such as a section of a bag.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     /// Name of the element.
@@ -152,23 +153,23 @@ pub struct Section {
 /// The force of an element on a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pull<'a> {
-    /// What the element is called: [`Element::NAMES`].
+    /// Kind of element: [`Element::NAMES`].
     pub of: &'static str,
     /// Name of the element.
     pub name: &'a str,
     /// Index of the sphere.
     pub sphere: usize,
-    /// Where it acts, vehicle axes, m.
+    /// Point of application, vehicle axes, m.
     pub point_m: Point3<f64>,
-    /// Vehicle axes, N.
+    /// Force, vehicle axes, N.
     pub force_n: Vector3<f64>,
 }
 
-/// Follows what force elements do from step to step.
+/// Follows the actions of force elements from step to step.
 pub trait Tracker<S> {
-    /// A number whose largest value is kept.
+    /// Value whose maximum is kept.
     fn number(&mut self, number: S);
-    /// Several.
+    /// Several values.
     #[inline(always)]
     fn numbers(&mut self, numbers: &[S])
     where
@@ -178,16 +179,16 @@ pub trait Tracker<S> {
             self.number(*number);
         }
     }
-    /// A sphere touches something.
+    /// Contact of a sphere.
     fn touch(&mut self, touch: &Touch<S>);
 }
 
-/// A number whose largest value in a run is kept: [`Reported::track`] shows it.
+/// Quantity whose maximum over a run is kept: [`Reported::track`] shows it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tracked {
     /// Column of the peak.
     pub column: Column,
-    /// Column of its time, which is absent where the peak is not above 0.
+    /// Column of its time, empty where the peak is not above 0.
     pub time: Option<Column>,
     /// Whether a peak below 0 counts as 0.
     pub at_least_zero: bool,

@@ -6,7 +6,7 @@ use crate::motion::layout::MOST_SLIDES;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// What uses a sphere: each use may ride in its own way on parts of a segment that yield.
+/// Use of a sphere: each use may move in its own way with yielding parts of a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Use {
     /// Surfaces, solids and other spheres.
@@ -16,14 +16,14 @@ pub enum Use {
     Belt,
     /// Air bags.
     Bag,
-    /// What the spine leans on: it does not ride.
+    /// Support of the spine: it does not move with plates.
     Back,
 }
 
-/// Most plates that one thing rides on.
+/// Largest number of plates that one point moves with.
 pub(crate) const MOST_RIDDEN: usize = 3;
 
-/// How something rides on plates: the shares of their deflections that it goes along with.
+/// Motion of a point with plates: its shares of their deflections.
 #[derive(Clone, Copy, Debug)]
 pub struct Riding<S> {
     plates: [u8; MOST_RIDDEN],
@@ -32,7 +32,7 @@ pub struct Riding<S> {
 }
 
 impl Riding<f64> {
-    /// On the first few of these.
+    /// Shares of the first few of these plates.
     pub(crate) fn new(shares: &Shares) -> Self {
         let mut riding = Riding { plates: [0; MOST_RIDDEN], count: 0, shares: [0.0; MOST_RIDDEN] };
         for (i, (plate, share)) in shares.iter().take(MOST_RIDDEN).enumerate() {
@@ -43,7 +43,7 @@ impl Riding<f64> {
 }
 
 impl<S: Copy> Riding<S> {
-    /// Whether another rides on the same plates.
+    /// Whether another moves with the same plates.
     pub(crate) fn is_like<A: Copy>(&self, other: &Riding<A>) -> bool {
         self.count == other.count && self.plates == other.plates
     }
@@ -67,7 +67,7 @@ impl<S: Copy> Riding<S> {
 }
 
 impl<S: Scalar> Riding<S> {
-    /// How far it is carried, and how fast beside its segment, space axes.
+    /// Displacement, and velocity relative to the segment, space axes.
     #[inline(always)]
     pub(crate) fn carried(&self, k: &Kinematics<S>) -> [V3<S>; 2] {
         let mut sum = [V3::zero(); 2];
@@ -85,18 +85,18 @@ impl<S: Scalar> Riding<S> {
 pub struct Site<S> {
     /// Index of its segment.
     pub segment: usize,
-    /// Centre seen from the segment's proximal joint, segment axes, m.
+    /// Centre from the segment's proximal joint, segment axes, m.
     pub offset: V3<S>,
     /// r, m.
     pub radius: S,
-    /// The leg at whose knee it is, among those of all bodies; none of other spheres.
+    /// Leg at whose knee it is, among those of all bodies; none for other spheres.
     pub knee: Option<usize>,
-    /// How it rides under contact, belts and bags; none of a sphere that rides under nothing.
+    /// Motion with plates under contact, belts and bags; none for a sphere without any.
     pub(crate) ride: Option<[Riding<S>; 3]>,
 }
 
 impl<S: Copy> Site<S> {
-    /// Whether another is of the same segment and rides on the same plates.
+    /// Whether another is of the same segment and moves with the same plates.
     pub(crate) fn is_like<A: Copy>(&self, other: &Site<A>) -> bool {
         let rides = match (&self.ride, &other.ride) {
             (Some(own), Some(other)) => own.iter().zip(other).all(|(a, b)| a.is_like(b)),
@@ -139,14 +139,14 @@ impl<S: Scalar> Site<S> {
         body.spheres.iter().map(|sphere| Site::new(body, sphere)).collect()
     }
 
-    /// How it rides under a use.
+    /// Motion with plates for a use.
     #[inline(always)]
     pub(crate) fn riding(&self, by: Use) -> Option<&Riding<S>> {
         let ride = self.ride.as_ref()?;
         ride.get(by as usize)
     }
 
-    /// The centre seen from the segment's joint, in space, and its velocity, under a use; all in space axes.
+    /// Vector from the segment's joint to the centre, and velocity, for a use; space axes.
     #[inline(always)]
     pub(crate) fn place(&self, k: &Kinematics<S>, by: Use) -> (V3<S>, V3<S>, V3<S>) {
         let n = self.segment;

@@ -11,19 +11,19 @@
 use crate::motion::scalar::Scalar;
 use placed_text::Problems;
 
-/// A fraction below this counts as this, so that μ = 0 is a very steep drop.
+/// Least returned fraction: μ = 0 becomes a very steep drop.
 pub const LEAST_FRACTION: f64 = 0.01;
-/// What yields gives back less of its energy than this.
+/// Returned fraction below which an object counts as yielding.
 const YIELDING: f64 = 0.5;
 
-/// Force over deformation while loading: slope K₁ up to Δ_b, then K₂.
+/// Force over deformation in loading: slope K₁ up to Δ_b, then K₂.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearSpring {
     /// K₁.
     pub k1_n_per_m: f64,
     /// K₂.
     pub k2_n_per_m: f64,
-    /// Δ_b, where the slope changes.
+    /// Δ_b, deformation at which the slope changes.
     pub break_m: f64,
     /// μ₁, fraction of the energy stored below Δ_b that unloading returns, 0 to 1.
     pub returned_1: f64,
@@ -32,7 +32,7 @@ pub struct BilinearSpring {
 }
 
 impl BilinearSpring {
-    /// One straight line of slope `k_n_per_m` (N/m), of whose energy unloading returns the fraction `returned`.
+    /// Straight line of slope `k_n_per_m` (N/m) with the returned fraction `returned`.
     pub fn linear(k_n_per_m: f64, returned: f64) -> Self {
         BilinearSpring {
             k1_n_per_m: k_n_per_m,
@@ -43,7 +43,7 @@ impl BilinearSpring {
         }
     }
 
-    /// The same up to the deformation `break_m` (m), and the slope `k2_n_per_m` (N/m) beyond.
+    /// The same up to the deformation `break_m` (m), with slope `k2_n_per_m` (N/m) beyond.
     pub fn then(self, break_m: f64, k2_n_per_m: f64) -> Self {
         BilinearSpring { break_m, k2_n_per_m, ..self }
     }
@@ -58,7 +58,7 @@ impl BilinearSpring {
         Spring::<f64>::new(self).steepest()
     }
 
-    /// Reports problems of it under `path`.
+    /// Reports problems of the curve at `path`.
     pub(crate) fn check(&self, path: &str, problems: &mut Problems) {
         problems.check_at_least_zero(&format!("{path}.k1"), self.k1_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
@@ -102,7 +102,7 @@ pub struct Spring<S> {
 }
 
 impl<S: Copy> Spring<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     pub(crate) fn zip<A: Copy, T>(&self, other: &Spring<A>, f: &impl Fn(S, A) -> T) -> Spring<T> {
         Spring {
             k1: f(self.k1, other.k1),
@@ -171,7 +171,7 @@ mod tests {
     use crate::forces::function::DeflectionLaw;
     use crate::forces::function::{ForceDeflection, Function};
 
-    /// A gap of 25 mm before 40 kN/m, of which 30 % come back.
+    /// A gap of 25 mm, then 40 kN/m with a returned fraction of 30 %.
     fn gap(returned_1: f64) -> BilinearSpring {
         BilinearSpring { returned_2: 0.3, ..BilinearSpring::linear(0.0, returned_1).then(0.025, 40e3) }
     }

@@ -8,7 +8,7 @@ use std::ops::Index;
 use occupant_units::unit::Unit;
 use serde::{Serialize, Serializer};
 
-/// Values under names, in the order in which they came; few, so that looking through them is quickest. In JSON an object.
+/// Values by name, in order of insertion; few, so linear search is fastest. In JSON: an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InOrder<K, V>(Vec<(K, V)>);
 
@@ -19,17 +19,17 @@ impl<K, V> Default for InOrder<K, V> {
 }
 
 impl<K: Eq, V> InOrder<K, V> {
-    /// Nothing.
+    /// An empty table.
     pub fn new() -> Self {
         InOrder::default()
     }
 
-    /// How many there are.
+    /// Number of entries.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no entries.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -49,7 +49,7 @@ impl<K: Eq, V> InOrder<K, V> {
         self.0.iter().map(|(_, value)| value)
     }
 
-    /// The value under a name.
+    /// Value under a name.
     pub fn get<Q: Eq + ?Sized>(&self, name: &Q) -> Option<&V>
     where
         K: Borrow<Q>,
@@ -57,7 +57,7 @@ impl<K: Eq, V> InOrder<K, V> {
         self.0.iter().find(|(key, _)| key.borrow() == name).map(|(_, value)| value)
     }
 
-    /// Puts a value under a name, in place of one that is there.
+    /// Inserts or replaces the value under a name.
     pub fn insert(&mut self, name: K, value: V) {
         match self.0.iter_mut().find(|(key, _)| *key == name) {
             Some((_, own)) => *own = value,
@@ -65,7 +65,7 @@ impl<K: Eq, V> InOrder<K, V> {
         }
     }
 
-    /// The value under a name, to be changed; a blank one if there is none.
+    /// Mutable value under a name, inserted with its default if absent.
     pub fn or_default(&mut self, name: K) -> &mut V
     where
         V: Default,
@@ -127,13 +127,13 @@ impl<K: Serialize, V: Serialize> Serialize for InOrder<K, V> {
     }
 }
 
-/// Tables of several kinds, by what their elements are called.
+/// Tables of several kinds, by the name of their elements.
 pub type Tables = InOrder<&'static str, Table>;
 
-/// A row: the name of an element under what one is called, then what stands in each column under its key.
+/// Row: the name of an element under the name of its kind, then the cells under the keys of their columns.
 pub(crate) type Row = InOrder<&'static str, Cell>;
 
-/// A table of the elements of one kind. In JSON it is its rows.
+/// Table of the elements of one kind. In JSON: an array of its rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Table {
@@ -144,13 +144,13 @@ pub struct Table {
     pub rows: Vec<Row>,
 }
 
-/// What stands in one column of one row.
+/// Cell of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Cell {
-    /// Words.
+    /// Text.
     Text(String),
-    /// A number; none if there is none, such as the time of a peak that was not reached.
+    /// Number; none without a value, such as the time of a peak that was not reached.
     Number(Option<f64>),
 }
 
@@ -159,53 +159,53 @@ pub enum Cell {
 pub struct Column {
     /// Key in JSON, with its unit.
     pub key: &'static str,
-    /// What stands over it in print: what it is and its unit there.
+    /// Printed heading: quantity and printed unit.
     pub heading: &'static str,
-    /// Printed number over that of JSON.
+    /// Printed number divided by that of JSON.
     pub scale: f64,
-    /// Decimals in print.
+    /// Printed decimals.
     pub decimals: usize,
-    /// What it holds.
+    /// Content.
     pub holds: Holds,
-    /// The end of its name among the measures of a run, and its unit there.
+    /// Suffix of its name among the measures of a run, and its unit there.
     pub measure: Option<(&'static str, Unit)>,
 }
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holds {
-    /// Words.
+    /// Text.
     Text,
     /// Numbers.
     Number,
-    /// When the peak of the column before was reached, s.
+    /// Time of the peak in the column before, s.
     Time,
 }
 
 impl Column {
-    /// Words.
+    /// Column of text.
     pub(crate) const fn text(key: &'static str, heading: &'static str) -> Self {
         Column { holds: Holds::Text, ..Column::number(key, heading, 0) }
     }
 
-    /// Numbers, printed in the unit of JSON.
+    /// Column of numbers, printed in the unit of JSON.
     pub(crate) const fn number(key: &'static str, heading: &'static str, decimals: usize) -> Self {
         Column { key, heading, scale: 1.0, decimals, holds: Holds::Number, measure: None }
     }
 
-    /// When the peak of the column before was reached.
+    /// Column of the time of the peak in the column before.
     pub(crate) const fn time(key: &'static str) -> Self {
         Column { scale: 1e3, holds: Holds::Time, ..Column::number(key, "at, ms", 1) }
     }
 
-    /// Also a measure of a run.
+    /// Column that is also a measure of a run.
     pub(crate) const fn measure(self, name: &'static str, unit: Unit) -> Self {
         Column { measure: Some((name, unit)), ..self }
     }
 }
 
 impl Table {
-    /// A table of elements of which one is called `of`, with a row of cells for each name.
+    /// Table of elements of kind `of`, with a row of cells for each name.
     pub(crate) fn new(
         of: &'static str,
         columns: &[Column],
@@ -219,7 +219,7 @@ impl Table {
         Table { rows: rows.into_iter().map(row).collect(), columns }
     }
 
-    /// The number under `key` of the element `name`.
+    /// Number under `key` of the element `name`.
     pub fn number(&self, name: &str, key: &str) -> Option<f64> {
         let row = self.rows.iter().find(|row| row.values().next().and_then(Cell::text) == Some(name));
         row?.get(key)?.number()
@@ -227,12 +227,12 @@ impl Table {
 }
 
 impl Cell {
-    /// Its words.
+    /// Text of the cell.
     pub fn text(&self) -> Option<&str> {
         if let Cell::Text(text) = self { Some(text) } else { None }
     }
 
-    /// Its number.
+    /// Number of the cell.
     pub fn number(&self) -> Option<f64> {
         if let Cell::Number(number) = self { *number } else { None }
     }

@@ -18,21 +18,21 @@ use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::vector::{V3, v3};
 
-/// What an evaluation has derived, as the loads of joints follow from it.
+/// Results of an evaluation from which the loads of joints follow.
 #[derive(Clone, Copy)]
 pub(crate) struct Carried<'a, S> {
     pub skeleton: &'a Skeleton<S>,
     pub k: &'a Kinematics<S>,
     pub accelerations: &'a Accelerations<S>,
     wrench: &'a [Wrench<S>; MOST_SEGMENTS],
-    /// Moments of all but joints.
+    /// Moments of all loads except joints.
     outer: &'a [V3<S>; MOST_SEGMENTS],
-    /// What acts on the spheres at the knees, by leg.
+    /// Forces on the spheres at the knees, by leg.
     pub knees: &'a [V3<S>],
 }
 
 impl<'a, S> Carried<'a, S> {
-    /// Of the evaluation just made.
+    /// Results of the latest evaluation.
     #[inline(always)]
     pub(crate) fn of(skeleton: &'a Skeleton<S>, scratch: &'a Scratch<S>) -> Self {
         let Scratch { kinematics: k, load, sweep, .. } = scratch;
@@ -40,7 +40,7 @@ impl<'a, S> Carried<'a, S> {
         Carried { skeleton, k, accelerations, wrench: &load.wrench, outer: &load.outer, knees: &load.knees }
     }
 
-    /// Of an evaluation.
+    /// Results of an evaluation.
     pub(crate) fn of_evaluation(skeleton: &'a Skeleton<S>, e: &'a Evaluation<S>) -> Self {
         let (k, accelerations) = (&e.kinematics, &e.accelerations);
         Carried { skeleton, k, accelerations, wrench: &e.wrench, outer: &e.outer, knees: &e.knees }
@@ -48,7 +48,7 @@ impl<'a, S> Carried<'a, S> {
 }
 
 impl<S: Scalar> Carried<'_, S> {
-    /// What segment `n` and those beyond it, which `subtree` lists, need at its proximal joint, space axes.
+    /// Wrench that segment `n` and all distal to it, listed in `subtree`, need at its proximal joint, space axes.
     #[inline(always)]
     pub(crate) fn at(&self, n: usize, subtree: impl Iterator<Item = usize>) -> Wrench<S> {
         let mut sum = Wrench::zero();
@@ -63,7 +63,7 @@ impl<S: Scalar> Carried<'_, S> {
         sum
     }
 
-    /// What one segment needs about its proximal joint.
+    /// Wrench that one segment needs about its proximal joint.
     #[inline(always)]
     pub(crate) fn own(&self, m: usize) -> Wrench<S> {
         let (k, link) = (self.k, &self.skeleton.links[m]);
@@ -77,7 +77,7 @@ impl<S: Scalar> Carried<'_, S> {
         own
     }
 
-    /// Adds what plates of a segment need beside what they would need had they not slid.
+    /// Adds the difference that sliding plates of a segment make.
     #[inline(always)]
     fn slid(&self, m: usize, own: &mut Wrench<S>) {
         let up = v3(S::zero(), S::zero(), self.skeleton.gravity);
@@ -92,7 +92,7 @@ impl<S: Scalar> Carried<'_, S> {
         }
     }
 
-    /// a + g Z′ of the centre of gravity: what an accelerometer reads there, space axes, m/s².
+    /// a + g Z′ at the centre of gravity: the reading of an accelerometer there, space axes, m/s².
     #[inline(always)]
     pub(crate) fn specific_force(&self, m: usize) -> V3<S> {
         self.accelerations.cg(self.skeleton, self.k, m) + v3(S::zero(), S::zero(), self.skeleton.gravity)

@@ -37,7 +37,7 @@ impl System<f64> {
         rate
     }
 
-    /// Everything that [`System::rate`] derives.
+    /// All results of [`System::rate`] with their intermediate values.
     pub fn evaluate(
         &self,
         situation: Situation<'_, f64>,
@@ -47,7 +47,7 @@ impl System<f64> {
         self.evaluate_with(&mut Scratch::blank(self), situation, history, observer)
     }
 
-    /// [`System::evaluate`] with a place for what is on the way.
+    /// [`System::evaluate`] with scratch space.
     pub(crate) fn evaluate_with(
         &self,
         scratch: &mut Scratch<f64>,
@@ -67,7 +67,7 @@ impl System<f64> {
         }
     }
 
-    /// Motion and loads of [`System::evaluate`], without gravity, left where they were found: nothing is copied.
+    /// Motion and loads of [`System::evaluate`], without gravity, in scratch space: nothing is copied.
     pub(crate) fn loads<'s>(
         &self,
         scratch: &'s mut Scratch<f64>,
@@ -91,7 +91,7 @@ impl System<f64> {
         scratch.write_rate(&self.skeleton, situation.state, rate);
     }
 
-    /// [`System::derive`] in instructions that every processor has: outside the steps of a run that is here alone.
+    /// [`System::derive`] without special instructions: outside the steps of a single run.
     #[inline(never)]
     fn derive_once(
         &self,
@@ -104,7 +104,7 @@ impl System<f64> {
         self.solve(scratch, situation);
     }
 
-    /// [`System::bear`] in the same way. It is inlined whole wherever it is called.
+    /// [`System::bear`] without special instructions. It is inlined wherever it is called.
     #[inline(never)]
     fn bear_once(
         &self,

@@ -12,22 +12,22 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 use nalgebra::Vector3;
 
-/// How many numbers a reading has.
+/// Count of numbers in a reading.
 pub(crate) const READINGS: usize = REAR + 3;
-/// Where the force of the neck stands in a reading, before its moment.
+/// Index of the neck's force in a reading, followed by its moment.
 pub(crate) const NECK: usize = 15;
-/// Where the femurs stand, right and left.
+/// Index of the femurs, right and left.
 pub(crate) const FEMURS: usize = 21;
-/// Where the place of the head stands in a reading.
+/// Index of the head's position.
 pub(crate) const PLACE: usize = 23;
-/// Where deflections of the chest stand: of the sternum, then of the points of [`POINTS`].
+/// Index of the chest deflections: of the sternum, then of the points of [`POINTS`].
 pub(crate) const CHEST: usize = 26;
-/// Where what tests from behind read stands: acceleration of T1 ahead, speed ahead of the head and place ahead of the pelvis in the
-/// body's home.
+/// Index of the values for rear impact: acceleration of T1 forward, speed forward of the head and position forward of
+/// the pelvis, in axes of the body's home frame.
 pub(crate) const REAR: usize = CHEST + CHEST_POINTS;
-/// How many they are.
+/// Number of chest points.
 pub(crate) const CHEST_POINTS: usize = 1 + POINTS.len();
-/// Points of a chest beside the sternum, as bodies name them.
+/// Points of a chest besides the sternum, by their names in bodies.
 const POINTS: [&str; 4] = ["upper_left", "upper_right", "lower_left", "lower_right"];
 
 /// What the instruments of one body read at one instant, SI. In SAE J211 axes of the segments: what accelerometers of head,
@@ -36,30 +36,30 @@ const POINTS: [&str; 4] = ["upper_left", "upper_right", "lower_left", "lower_rig
 /// deflections of a chest, m. No numbers of what a body lacks.
 pub(crate) type Reading<S> = [S; READINGS];
 
-/// Where the instruments of a body are.
+/// Instruments of a body.
 #[derive(Clone, Debug)]
 pub(crate) struct Instruments<S> {
-    /// Segments that carry the accelerometers of head, chest and pelvis.
+    /// Segments with the accelerometers of head, chest and pelvis.
     accelerometers: [Option<usize>; 3],
     neck: Option<Neck<S>>,
-    /// The segment that the chest carries towards the head, at whose joint T1 is, where there is one.
+    /// Segment above the chest, towards the head, whose joint is T1, if any.
     above_t1: Option<usize>,
-    /// Whether what tests from behind read is read.
+    /// Whether the values for rear impact are read.
     is_rear: bool,
-    /// Right and left.
+    /// Right and left leg.
     legs: [Option<Leg>; 2],
-    /// The head's sphere.
+    /// Sphere of the head.
     head: Option<usize>,
-    /// Frame of the body's home.
+    /// Home frame of the body.
     home: usize,
-    /// How the points of its chest go along with plates.
+    /// How the points of its chest move with plates.
     chest: [Option<Riding<S>>; CHEST_POINTS],
 }
 
 #[derive(Clone, Debug)]
 struct Neck<S> {
     from: Beyond,
-    /// In whose axes it is told.
+    /// Segment in whose axes the load is given.
     head: usize,
     condyles: V3<S>,
 }
@@ -67,24 +67,24 @@ struct Neck<S> {
 #[derive(Clone, Debug, PartialEq)]
 struct Leg {
     thigh: usize,
-    /// Its place among the knees of all bodies.
+    /// Index among the knees of all bodies.
     knee: usize,
     shanks: Vec<Beyond>,
 }
 
-/// A joint and what it carries.
+/// A joint and all that is distal to it.
 #[derive(Clone, Debug, PartialEq)]
 struct Beyond {
     segment: usize,
-    /// The segment and all beyond it.
+    /// The segment and all distal to it.
     subtree: Vec<usize>,
     /// Whether the distal segment of the joint carries the proximal one.
     is_reversed: bool,
 }
 
 impl Instruments<f64> {
-    /// Fits `system`, of these bodies, with those of each: `sites` tells by body the frame of its home and where its condyles
-    /// are, `is_rear` whether what tests from behind read is read.
+    /// Fits `system`, of these bodies, with their instruments: `sites` gives by body its home frame and the position of
+    /// its condyles, `is_rear` whether values for rear impact are read.
     pub(crate) fn fit(system: &mut System<f64>, body: &Body, sites: &[(usize, Option<Vector3<f64>>)], is_rear: bool) {
         let (rows, layout) = (body.tree.bodies(), &system.skeleton.layout);
         let all = rows.iter().enumerate().zip(sites);
@@ -181,7 +181,7 @@ impl<S: Copy> Instruments<S> {
 }
 
 impl Beyond {
-    /// What the proximal segment exerts on the distal one, space axes: force and moment.
+    /// Force and moment of the proximal segment on the distal one, space axes.
     #[inline(always)]
     fn load<S: Scalar>(&self, from: &Carried<'_, S>) -> (V3<S>, V3<S>) {
         let load = from.at(self.segment, self.subtree.iter().copied());
@@ -190,7 +190,7 @@ impl Beyond {
 }
 
 impl<S: Scalar> Instruments<S> {
-    /// The centre of the head's sphere in axes of the body's home.
+    /// Centre of the head's sphere in axes of the body's home frame.
     #[inline(always)]
     pub(crate) fn head_in(&self, system: &System<S>, k: &Kinematics<S>, frames: &Frames<S>) -> Option<V3<S>> {
         let (_, centre, _) = system.spheres[self.head?].place(k, Use::Contact);
@@ -241,7 +241,7 @@ impl<S: Scalar> Instruments<S> {
 }
 
 impl<S: Scalar> Instruments<S> {
-    /// What tests from behind read.
+    /// Values for rear impact.
     #[inline(always)]
     fn read_rear(&self, system: &System<S>, from: &Carried<'_, S>, frames: &Frames<S>, reading: &mut Reading<S>) {
         let (k, home, skeleton) = (from.k, &frames[self.home], &system.skeleton);
@@ -261,13 +261,13 @@ impl<S: Scalar> Instruments<S> {
     }
 }
 
-/// Puts a vector into a reading.
+/// Writes a vector into a reading.
 #[inline(always)]
 fn put<S: Scalar>(reading: &mut Reading<S>, at: usize, v: V3<S>) {
     [reading[at], reading[at + 1], reading[at + 2]] = [v.x, v.y, v.z];
 }
 
-/// From space axes to SAE J211 axes of a segment (right, down), whose own are left and up.
+/// From space axes to SAE J211 axes of a segment (Y right, Z down), whose own axes are left and up.
 #[inline(always)]
 fn told<S: Scalar>(k: &Kinematics<S>, n: usize, v: V3<S>) -> V3<S> {
     let v = k.axes[n].into_frame(v);
@@ -275,7 +275,7 @@ fn told<S: Scalar>(k: &Kinematics<S>, n: usize, v: V3<S>) -> V3<S> {
 }
 
 impl<S: Scalar> System<S> {
-    /// Shows what the instruments of every body read at the evaluation that has just been made, in `frames`.
+    /// Shows the readings of every body at the latest evaluation, in `frames`.
     #[inline(always)]
     pub(crate) fn read(&self, scratch: &Scratch<S>, frames: &Frames<S>, show: &mut impl FnMut(usize, &Reading<S>)) {
         self.read_from(&Carried::of(&self.skeleton, scratch), frames, show);

@@ -23,7 +23,7 @@ use crate::motion::skeleton::Skeleton;
 use crate::motion::state::{SLIDE_UNITS, State, Work};
 use crate::motion::vector::V3;
 
-/// Another tree, or one on another frame.
+/// Another tree, or a tree on another frame.
 pub(crate) const OTHER_TREE: Unlike = Unlike("the bodies have other trees of segments");
 /// Other spheres, or spheres on other segments.
 pub(crate) const OTHER_SPHERES: Unlike = Unlike("the contact spheres are others or on other segments");
@@ -35,16 +35,16 @@ pub struct System<S> {
     pub skeleton: Skeleton<S>,
     /// Spheres, in the body's order.
     pub spheres: Vec<Site<S>>,
-    /// Segments that carry faces; their frames stand behind all others.
+    /// Segments that carry contact faces; their frames have indices after all others.
     pub carriers: Vec<usize>,
     /// Force elements.
     pub forces: Forces<S>,
-    /// Instruments of the bodies; none are read of bodies that have not been fitted with them.
+    /// Instruments of the bodies; empty for bodies without.
     pub(crate) instruments: Vec<Instruments<S>>,
 }
 
 impl<S> System<S> {
-    /// Of these parts; the segments that carry faces are those of contacts.
+    /// System of these parts; the segments with faces are those of contacts.
     pub fn new(skeleton: Skeleton<S>, spheres: Vec<Site<S>>, forces: Forces<S>) -> Self {
         System { skeleton, spheres, carriers: forces.contacts.carriers.clone(), forces, instruments: Vec::new() }
     }
@@ -77,14 +77,15 @@ impl<S: Copy> System<S> {
     }
 }
 
-/// Where a rate is asked for.
+/// Arguments of a rate.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a, S> {
     /// State of the body.
     pub state: &'a State<S>,
     /// Frames at its time.
     pub frames: &'a Frames<S>,
-    /// Whether this is an accepted step: the history then first takes over the present position; else it is only read.
+    /// Whether this is an accepted step: the history is then first updated with the present position; else it is only
+    /// read.
     pub accepted: bool,
 }
 
@@ -100,10 +101,10 @@ impl<'a, S> Situation<'a, S> {
     }
 }
 
-/// One evaluation with all that it derived.
+/// One evaluation with its intermediate values.
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluation<S> {
-    /// Places and velocities.
+    /// Positions and velocities.
     pub kinematics: Kinematics<S>,
     /// Loads on the segments, without gravity.
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
@@ -111,13 +112,13 @@ pub struct Evaluation<S> {
     pub accelerations: Accelerations<S>,
     /// Powers for the energy ledger by body, W.
     pub power: [Work<S>; MOST_BODIES],
-    /// By segment: the moment of all loads but those of joints, N·m.
+    /// By segment: moment of all loads except joints, N·m.
     pub(crate) outer: [V3<S>; MOST_SEGMENTS],
-    /// By leg: what acts on the spheres at its knee, N.
+    /// By leg: force on the spheres at its knee, N.
     pub(crate) knees: [V3<S>; MOST_LEGS],
 }
 
-/// What an evaluation writes on its way: a place that the next one uses again.
+/// Scratch space of an evaluation, reused by the next.
 #[derive(Clone, Debug)]
 pub struct Scratch<S> {
     kinematics: Kinematics<S>,
@@ -125,12 +126,12 @@ pub struct Scratch<S> {
     carried: Vec<Moving<S>>,
     load: Load<S>,
     sweep: Sweep<S>,
-    /// Where columns and hinges carry their frames; none if there are none.
+    /// Frames with those that columns and hinges carry; none without such frames.
     frames: Option<Box<Frames<S>>>,
 }
 
 impl<S: Scalar> Scratch<S> {
-    /// Nothing written yet of a system like this.
+    /// Empty scratch space for a system like this.
     #[inline(always)]
     pub fn blank(system: &System<S>) -> Self {
         Scratch {
@@ -142,7 +143,7 @@ impl<S: Scalar> Scratch<S> {
         }
     }
 
-    /// The rate that the last evaluation found.
+    /// Writes the rate of the latest evaluation.
     #[inline(always)]
     fn write_rate(&self, body: &Skeleton<S>, state: &State<S>, rate: &mut State<S>) {
         let Load { power, own, .. } = &self.load;
@@ -158,8 +159,8 @@ impl<S: Scalar> Scratch<S> {
 }
 
 impl<S: Scalar> System<S> {
-    /// Rate of change of the state, written to `rate`, with a place for what is on the way that is used again: clearing and
-    /// copying cost lanes a fifth of an evaluation.
+    /// Rate of change of the state, written to `rate`, with reused scratch space: clearing and copying cost lanes a
+    /// fifth of an evaluation.
     #[inline(always)]
     pub fn rate_with(
         &self,
@@ -224,14 +225,14 @@ impl<S: Scalar> System<S> {
         sweep.solve(&self.skeleton, k, situation.state.hinge_rate(), (&load.wrench, &drive), motion);
     }
 
-    /// Moves the frames that columns and hinges carry, which stand among `frames` where their parents carry them.
+    /// Moves the frames that columns and hinges carry; `frames` contains their parents.
     #[inline(always)]
     pub(crate) fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
         column::carry(&self.forces.columns, state, frames);
         column::carry(&self.forces.hinges, state, frames);
     }
 
-    /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.
+    /// Vector from a segment's joint to a sphere's centre, and the sphere's velocity, space axes.
     pub fn sphere(&self, k: &Kinematics<S>, sphere: usize) -> (V3<S>, V3<S>, V3<S>) {
         self.spheres[sphere].place(k, Use::Contact)
     }

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::setup::Integrator;
 
-/// What is asked of the integration: how far the head's path and the peaks may be from the solution.
+/// Accuracy of the integration: largest error of the head's path and of peaks.
 ///
-/// `docs/accuracy.md` holds what each leaves in all shipped scenarios with varied materials.
+/// `docs/accuracy.md` lists the errors at each level in all shipped scenarios with varied materials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -17,19 +17,21 @@ pub enum Accuracy {
     /// 0.1 mm and 0.1 %.
     #[default]
     Engineering,
-    /// A thousandth of that, to judge others by.
+    /// A thousandth of that, as a reference for the others.
     Reference,
 }
 
-/// Lengths of a blow, a crash and a short manoeuvre, s: differences grow with the length, and the tolerance falls with it.
+/// Durations of a blow, a crash and a short manoeuvre, s: errors grow with the duration, and the tolerance falls with
+/// it.
 const UP_TO_S: [f64; 3] = [0.05, 0.35, 1.0];
-/// The longest step in a blow or crash, s: longer ones pass over short touches, and make more pairs of surfaces worth looking at.
+/// Longest step in a blow or crash, s: longer ones miss short contacts and require more pairs of surfaces to be
+/// checked.
 const IN_CRASH_S: f64 = 5e-4;
-/// The same in what is longer, s.
+/// Longest step in longer runs, s.
 const IN_LONG_S: f64 = 2e-3;
 
 impl Accuracy {
-    /// Error control that keeps the promise over a run of `span_s` seconds, by the table of `docs/accuracy.md`.
+    /// Error control that keeps the accuracy over a run of `span_s` seconds, by the table of `docs/accuracy.md`.
     pub fn integrator(self, span_s: f64) -> Integrator {
         let (by_length, min_step_s) = match self {
             Accuracy::Survey => ([2e-6, 2e-5, 3e-6, 3e-7], 1e-10),

@@ -25,7 +25,8 @@ use crate::vehicle::{FrameMotion, PathCursor};
 use nalgebra::Vector3;
 use placed_text::Problems;
 
-/// Places the bodies, then everything that depends on where they are: velocities, constants and history of force elements.
+/// Places the bodies, then sets everything that depends on their position: velocities, constants and history of force
+/// elements.
 pub(super) fn begin(
     setup: &Setup,
     faces: &[FlatFace],
@@ -101,7 +102,7 @@ pub(super) fn begin(
     Some((system, Start { state, history, seated, settled, unsettled }, alone))
 }
 
-/// Constants of the body, or of all of them.
+/// Constants of the body, or of all bodies.
 fn skeleton(setup: &Setup, alone: &[Model]) -> Skeleton<f64> {
     if alone.is_empty() {
         let skeleton = Skeleton::new(&setup.body, setup.gravity_m_s2);
@@ -120,7 +121,7 @@ fn skeleton(setup: &Setup, alone: &[Model]) -> Skeleton<f64> {
     all
 }
 
-/// Where a body begins.
+/// Initial position of a body.
 struct Placed {
     state: State<f64>,
     seated: Option<Seated>,
@@ -135,7 +136,7 @@ impl Placed {
     }
 }
 
-/// Places the body by what the setup says of its posture.
+/// Places the body by the posture of the setup.
 fn place(
     setup: &Setup,
     faces: &[FlatFace],
@@ -189,7 +190,7 @@ fn place(
     Some(placed)
 }
 
-/// Names the pairs that are said to have passed each other and do not overlap: they are open, as if they were not listed.
+/// Lists pairs given as passed that do not overlap: they are open, as if they were not listed.
 fn warn_apart(
     setup: &Setup,
     forces: &Forces<f64>,
@@ -213,8 +214,8 @@ fn warn_apart(
     }
 }
 
-/// The planes of a seat: of solids, the face of the cushion that looks most upwards and that of the back that looks most
-/// towards the heels and a little upwards, as a back that lies nearly flat has another face ahead.
+/// Planes of a seat: of solids, the face of the cushion that faces most upwards, and that of the back that faces most
+/// towards the heels and slightly upwards, since a nearly flat back has another face ahead.
 fn seat_of<'a>(
     setup: &'a Setup,
     faces: &[FlatFace],
@@ -240,7 +241,7 @@ fn seat_of<'a>(
     Some(Seat { cushion, back, force: &material.force })
 }
 
-/// Adds the angular velocity that a body is put with.
+/// Adds the initial angular velocity of a placed body.
 fn spin(state: &mut State<f64>, placing: &Placing, vehicle: &FrameMotion) {
     let carrier = placing.at.carrier(vehicle);
     let omega = carrier.vector_to_space(placing.spin_rad_s);
@@ -249,7 +250,7 @@ fn spin(state: &mut State<f64>, placing: &Placing, vehicle: &FrameMotion) {
     state.turns().for_each(|slot| state.set_omega(slot, state.omega(slot) + V3::of(&omega)));
 }
 
-/// Gives every point of the body its velocity at the start.
+/// Sets the initial velocity of every point of the body.
 fn set_velocity(state: &mut State<f64>, velocity: &InitialVelocity, vehicle: &FrameMotion) {
     match velocity {
         InitialVelocity::WithVehicle => {

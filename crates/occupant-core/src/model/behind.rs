@@ -7,17 +7,17 @@ use crate::forces::contact::surface::Frame;
 use crate::model::setup::Setup;
 use crate::vehicle::{PathCursor, VehiclePath};
 
-/// What names of head restraints have in them.
+/// Part of the name by which head restraints are known.
 const NAME: &str = "head_restraint";
-/// A time within which a crash changes the speed, s, and by how much at least, m/s.
+/// Duration within which a crash changes the speed, s, and the least change, m/s.
 const WITHIN_S: f64 = 0.15;
 const LEAST_M_S: f64 = 1.0;
-/// So many looks at the path within that time.
+/// Samples of the path within that time.
 const LOOKS: usize = 15;
-/// No more looks at a long path.
+/// Largest number of samples of a long path.
 const MOST_LOOKS: usize = 2000;
 
-/// The surfaces (numbers among all that can be touched) that are head restraints in a blow from behind.
+/// Surfaces (indices among all that can be touched) that are head restraints in a rear impact.
 pub(crate) fn restraints(setup: &Setup) -> Vec<usize> {
     let frames = setup.surfaces.iter().map(|own| own.frame).chain(setup.solids.iter().map(|own| own.frame));
     let named = setup.surface_names().zip(frames).enumerate().filter(|(_, (name, _))| name.contains(NAME));

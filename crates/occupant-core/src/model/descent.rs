@@ -8,24 +8,24 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::motion::state::State;
 
-/// A step moves or turns no freedom by more, m: the forces are stiff and only piecewise smooth.
+/// Largest motion of a freedom in one step, m: the forces are stiff and only piecewise smooth.
 const MOST_STEP_M: f64 = 0.03;
-/// Each freedom is moved by so much for differences, m.
+/// Displacement of each freedom for difference quotients, m.
 const DIFFERENCE_M: f64 = 1e-6;
-/// Loads below this part of the weight are none.
+/// Fraction of the weight below which loads count as zero.
 pub(super) const REST: f64 = 1e-8;
-/// Steps at most.
+/// Largest number of steps.
 const MOST_STEPS: usize = 1000;
 
-/// A body that can be moved by its freedoms, metres or turns times a lever.
+/// A body that can be moved by its freedoms, metres or angles times a lever.
 pub(super) trait Movable {
-    /// ∂V/∂x at a place.
+    /// ∂V/∂x at a position.
     fn gradient(&mut self, state: &State<f64>) -> DVector<f64>;
 
-    /// The place moved by `x` from another.
+    /// Position moved by `x` from another.
     fn moved(&self, state: &State<f64>, x: &DVector<f64>) -> State<f64>;
 
-    /// Whether it has been looked at often enough.
+    /// Whether its number of evaluations is used up.
     fn is_spent(&self) -> bool;
 
     /// ∂²V/∂x².
@@ -41,7 +41,7 @@ pub(super) trait Movable {
     }
 }
 
-/// The place below `from` where `body` rests, or where no way leads down any more, and the gradient there.
+/// Position below `from` where `body` rests, or where V falls no further, and the gradient there.
 pub(super) fn descend(body: &mut impl Movable, from: &State<f64>, weight_n: f64) -> (State<f64>, DVector<f64>) {
     let (mut state, mut g) = (*from, body.gradient(from));
     let mut shift = 1e-3;
@@ -67,7 +67,7 @@ pub(super) fn descend(body: &mut impl Movable, from: &State<f64>, weight_n: f64)
     (state, g)
 }
 
-/// −(H + λ1)⁻¹g, shortened where it is too long; none if H + λ1 is not positive definite.
+/// −(H + λ1)⁻¹g, shortened to the largest step; none if H + λ1 is not positive definite.
 fn downhill(hessian: &DMatrix<f64>, g: &DVector<f64>, shift: f64) -> Option<DVector<f64>> {
     let shifted = hessian + DMatrix::from_diagonal_element(g.len(), g.len(), shift + 1e-9);
     let step = -shifted.cholesky()?.solve(g);

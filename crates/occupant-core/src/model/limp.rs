@@ -26,20 +26,20 @@ use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use occupant_units::trig;
 
-/// A limp body at rest in a vehicle that is at rest.
+/// A limp body at rest in a vehicle at rest.
 struct Limp {
     system: System<f64>,
     still: Frames<f64>,
     rest: Rest,
     history: History<f64>,
-    /// The motion where it is tried, and a place for what an evaluation finds there.
+    /// Trial motion, and scratch space for its evaluation.
     k: Box<Kinematics<f64>>,
     scratch: Box<Scratch<f64>>,
-    /// Elements looked at so far.
+    /// Number of element evaluations so far.
     looks: usize,
 }
 
-/// Lets a limp body sink from the posture `seated` to where it rests.
+/// Lets a limp body sink from the posture `seated` to rest.
 pub(super) fn sink(
     setup: &Setup,
     data: &Data<'_>,
@@ -59,7 +59,7 @@ pub(super) fn sink(
     (state, settled(&seated, &state, &g, weight_n), limp.rest)
 }
 
-/// Springs and locks at rest and belts laid on the body as it was seated.
+/// State of springs, locks and belts in the seated posture.
 pub(super) struct Rest {
     belts: <Belts as Element>::Law<f64>,
     joints: JointSystem<f64>,
@@ -82,20 +82,20 @@ impl Rest {
         }
     }
 
-    /// Keeps them so of a body that lies elsewhere; to be called before anything remembers that it does.
+    /// Restores it for a body in another position; must be called before any memory of that position is set.
     pub(super) fn keep(&self, forces: &mut Forces<f64>) {
         forces.belts.clone_from(&self.belts);
         forces.joints = self.joints.clone();
     }
 
-    /// Locks hold the posture that the body was seated in.
+    /// Makes locks hold the seated posture.
     pub(super) fn hold(&self, history: &mut History<f64>) {
         history.memory.limits.iter_mut().zip(&self.limits).for_each(|(past, seated)| past.hold_as(seated));
     }
 }
 
 impl Movable for Limp {
-    /// ∂V/∂x at a place, in the order of [`moved`]: N, and N·m over the lever.
+    /// ∂V/∂x at a position, in the order of [`moved`]: N, and N·m over the lever.
     fn gradient(&mut self, state: &State<f64>) -> DVector<f64> {
         let Limp { system, still, rest, history, k, scratch, looks } = self;
         k.follow(&system.skeleton, state, None);
@@ -125,7 +125,7 @@ impl Movable for Limp {
     }
 }
 
-/// What a body has come to that went down from where it was `seated`.
+/// Outcome of sinking from the state `seated`.
 pub(super) fn settled(seated: &State<f64>, state: &State<f64>, g: &DVector<f64>, weight_n: f64) -> Settled {
     let [from, to] = [seated, state].map(|state| axes(&state.orientation(0)).to_matrix());
     let turn = quaternion(&(to * from.transpose()));
@@ -139,7 +139,8 @@ pub(super) fn settled(seated: &State<f64>, state: &State<f64>, g: &DVector<f64>,
     }
 }
 
-/// The body with T1 moved by x[0..3] (m) and each joint turned by what follows (rad times the lever), with all that hangs on it.
+/// Body with T1 moved by x[0..3] (m) and each joint turned by the following values (rad times the lever), with all that
+/// is distal to it.
 fn moved(skeleton: &Skeleton<f64>, state: &State<f64>, x: &DVector<f64>) -> State<f64> {
     let (k, mut out) = (Kinematics::new(skeleton, state), *state);
     out.set_t1(state.t1() + V3 { x: x[0], y: x[1], z: x[2] });

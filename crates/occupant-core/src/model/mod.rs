@@ -34,7 +34,7 @@ use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
 use nalgebra::Vector3;
 use placed_text::Problems;
 
-/// Times nearer than this are one time, s.
+/// Times closer than this are one time, s.
 pub const ROUNDING_S: f64 = 1e-12;
 
 /// A scenario ready to run.
@@ -88,12 +88,12 @@ impl Model {
         }
     }
 
-    /// The same number for models whose parts have the same names in the same order, and so the same results.
+    /// A number that is equal for models whose parts have the same names in the same order, and so the same results.
     pub(crate) fn names_hash(&self) -> u64 {
         self.names_hash
     }
 
-    /// What the model was made from.
+    /// The setup.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
@@ -132,34 +132,34 @@ impl Model {
         &self.faces
     }
 
-    /// The derivative kernel's constants.
+    /// Constants of the derivative kernel.
     pub fn system(&self) -> &System<f64> {
         &self.system
     }
 
-    /// The occupant at the start.
+    /// Initial state of the occupant.
     pub fn start(&self) -> &Start {
         &self.start
     }
 
-    /// The bodies by themselves, where there are several.
+    /// The single bodies, if there are several.
     pub fn alone(&self) -> &[Model] {
         &self.alone
     }
 
-    /// The same, its body swept as any tree is.
+    /// The same model without closed forms: its body is swept as a general tree.
     #[cfg(test)]
     pub(crate) fn without_closed_forms(mut self) -> Self {
         self.system.skeleton = self.system.skeleton.without_closed_forms();
         self
     }
 
-    /// Things that a user should know but that do not stop a run.
+    /// Warnings that do not prevent a run.
     pub fn warnings(&self) -> &Problems {
         &self.warnings
     }
 
-    /// Time of output `index`, s; the last is the end of the run.
+    /// Time of the output with this index, s; the last is the end of the run.
     pub(crate) fn output_time_s(&self, index: usize) -> Option<f64> {
         let time = &self.setup.time;
         let (number, whole) = (index as f64, time.whole_intervals());
@@ -170,7 +170,7 @@ impl Model {
         }
     }
 
-    /// The same, integrated in another way.
+    /// The same model with another integrator.
     ///
     /// # Errors
     /// Steps and tolerances that cannot be.
@@ -179,7 +179,7 @@ impl Model {
         self.timed()
     }
 
-    /// The same, recorded at other times.
+    /// The same model with other output times.
     ///
     /// # Errors
     /// An interval that cannot be, or longer than the run.
@@ -188,7 +188,7 @@ impl Model {
         self.timed()
     }
 
-    /// This, if its times and its integrator can be.
+    /// The model, if its times and its integrator are possible.
     fn timed(self) -> Result<Self, Problems> {
         let mut problems = Problems::new();
         validate::check_time(&self.setup.time, &self.setup.integrator, &mut problems);
@@ -200,13 +200,13 @@ impl Model {
         self.setup.time.whole_intervals() as usize + 2
     }
 
-    /// Times at which the vehicle's motion jumps, or that of another frame, s, in the order of the setup.
+    /// Times of discontinuities in the motion of the vehicle or of another frame, s, in the order of the setup.
     fn corners_s(&self) -> Vec<f64> {
         let frames = self.setup.frames.iter().flat_map(|frame| frame.path.breaks_s());
         self.setup.path.breaks_s().into_iter().chain(frames).collect()
     }
 
-    /// Times at which a muscle begins or ends to act, or a device of a belt or bag does, s, in the order of the setup.
+    /// Times at which a muscle, or a device of a belt or bag, begins or ends to act, s, in the order of the setup.
     fn dues_s(&self) -> Vec<f64> {
         let mut dues_s: Vec<f64> = self.setup.joints.muscles.iter().flat_map(|muscle| muscle.times_s).collect();
         dues_s.extend(self.setup.chains.iter().flat_map(Chain::breaks_s));
@@ -214,25 +214,25 @@ impl Model {
         dues_s
     }
 
-    /// The times of breaks one by one, in an order that models of one structure share.
+    /// Times of all discontinuities, in an order that models of one structure share.
     pub fn each_break_s(&self) -> Vec<f64> {
         [self.corners_s(), self.dues_s()].concat()
     }
 
-    /// Times at which the vehicle's motion jumps, a muscle begins or ends to act, or a device of a belt or bag does, s, in increasing order: no step goes
-    /// across one where the error control chooses it.
+    /// Times of discontinuities in the motion of the vehicle, or at which a muscle or a device of a belt or bag begins
+    /// or ends to act, s, in increasing order: error-controlled steps do not cross them.
     pub(crate) fn breaks_s(&self) -> Vec<f64> {
         in_order(self.each_break_s())
     }
 
-    /// Frames at `t_s` within a step whose middle is `step_middle_s`.
+    /// Frames at `t_s` within a step with the middle `step_middle_s`.
     pub fn frames(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> Frames<f64> {
         let mut frames = Frames::still(t_s);
         self.move_frames(&mut frames, t_s, step_middle_s, cursor);
         frames
     }
 
-    /// Makes `frames` those of a time: [`Model::frames`].
+    /// Sets `frames` to those of a time: [`Model::frames`].
     #[inline]
     pub(crate) fn move_frames(&self, frames: &mut Frames<f64>, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) {
         frames.time = t_s;
@@ -242,14 +242,14 @@ impl Model {
         }
     }
 
-    /// [`Model::frames`] where the motion of the vehicle is known.
+    /// [`Model::frames`] with the known motion of the vehicle.
     pub(crate) fn frames_with(&self, t_s: f64, step_middle_s: f64, vehicle: &FrameMotion) -> Frames<f64> {
         let mut frames = frames(t_s, vehicle);
         self.setup.place_frames(&mut frames, step_middle_s);
         frames
     }
 
-    /// Motion of the vehicle at `t_s` within a step whose middle is `step_middle_s`.
+    /// Motion of the vehicle at `t_s` within a step with the middle `step_middle_s`.
     pub(crate) fn vehicle(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let path = &self.setup.path;
         // only mounts, columns and hinges feel accelerations
@@ -261,7 +261,7 @@ impl Model {
 }
 
 impl Model {
-    /// Motions of the homes of the bodies for output, among `frames` with the motion of the vehicle.
+    /// Motions of the home frames of the bodies for output, by `frames` with the motion of the vehicle.
     pub(crate) fn homes(&self, frames: &Frames<f64>, vehicle: &FrameMotion) -> [FrameMotion; MOST_BODIES] {
         let mut homes = [*vehicle; MOST_BODIES];
         for (motion, Member { home, .. }) in homes.iter_mut().zip(&self.setup.members) {
@@ -278,7 +278,7 @@ impl Model {
     }
 }
 
-/// A number that tells models apart whose parts have other names.
+/// A number that differs between models with differently named parts.
 fn names_hash(setup: &Setup) -> u64 {
     let Setup { body, belts, chains, bags, columns, frames, members, joints, output, .. } = setup;
     let mut hasher = DefaultHasher::new();
@@ -303,14 +303,14 @@ fn names_hash(setup: &Setup) -> u64 {
     hasher.finish()
 }
 
-/// Frames for a motion of the vehicle at a time; others are at rest in space.
+/// Frames for a motion of the vehicle at a time; other frames are at rest in space.
 pub fn frames(time_s: f64, vehicle: &FrameMotion) -> Frames<f64> {
     let mut frames = Frames::still(time_s);
     frames[VEHICLE] = Moving::of(vehicle);
     frames
 }
 
-/// In increasing order, each once: of times that rounding alone keeps apart the last, at which all of them are due.
+/// Sorted times without duplicates: of times that differ by rounding only, the last, at which all are due.
 fn in_order(mut times_s: Vec<f64>) -> Vec<f64> {
     times_s.sort_by(f64::total_cmp);
     times_s.dedup_by(|later_s, kept_s| {

@@ -10,7 +10,7 @@ use crate::motion::state::{Shape, State};
 use crate::motion::vector::V3;
 use crate::vehicle::{Attitude, FrameMotion};
 
-/// The state of a body on a mount; velocities are zero. `carrier` is the motion of the mount's frame.
+/// State of a body on a mount, with zero velocities. `carrier` is the motion of the mount's frame.
 pub(crate) fn hang(body: &Body, mounting: &Mounting, carrier: &FrameMotion) -> State<f64> {
     let mount = mounting.mount(body.joint_m(body.tree.segment(0)));
     let yaw = Attitude { yaw_rad: mounting.attitude.yaw_rad, ..Attitude::default() };
@@ -18,16 +18,16 @@ pub(crate) fn hang(body: &Body, mounting: &Mounting, carrier: &FrameMotion) -> S
     pose.state(body, mount.place.to_vector(), carrier)
 }
 
-/// How the segments are turned, vehicle axes, and the angles of the hinges.
+/// Orientations of the segments, vehicle axes, and angles of the hinges.
 pub(super) struct Pose {
     pub(super) axes: Vec<Matrix3<f64>>,
-    /// By segment; 0 of one that is on no hinge.
+    /// By segment; 0 without a hinge.
     hinge_rad: Vec<f64>,
 }
 
 impl Pose {
-    /// Segments lean in the vehicle's X–Z plane, or in that which `facing` turns it to, those of legs by what `of_leg` says;
-    /// the first one has the axes `first` unless it is said to lean.
+    /// Segments lean in the vehicle's X–Z plane, or in the plane that `facing` turns it to; those of legs by `of_leg`.
+    /// The first segment has the axes `first` unless its lean is given.
     pub(super) fn new(
         body: &Body,
         angles_rad: &[(String, f64)],
@@ -57,7 +57,7 @@ impl Pose {
         pose
     }
 
-    /// Axes of the outer one of a joint's segments if the distal one is turned about the Y axis of the joint.
+    /// Axes of the outer segment of a joint, with the distal segment turned about the joint's Y axis.
     fn carried(&self, body: &Body, joint: Joint, angle_rad: f64) -> Matrix3<f64> {
         let [carrying, carried] = body.sites(joint);
         let angle_rad = if body.tree[joint].is_reversed() { -angle_rad } else { angle_rad };
@@ -66,7 +66,7 @@ impl Pose {
         self.axes[body.tree[joint].carrying()[0].index()] * turn.to_rotation_matrix().into_inner()
     }
 
-    /// T1 where the lower end of `from` is at `lower_end`, vehicle axes.
+    /// T1 for a lower end of `from` at `lower_end`, vehicle axes.
     pub(super) fn t1_m(&self, body: &Body, from: Segment, lower_end: Vector3<f64>) -> Vector3<f64> {
         let mut place = lower_end;
         for segment in body.tree.inwards(from) {
@@ -97,13 +97,13 @@ impl Pose {
     }
 }
 
-/// Z of a segment that leans back by γ, vehicle axes (Eq. 109).
+/// Z axis of a segment that leans back by γ, vehicle axes (Eq. 109).
 pub(super) fn along(gamma: f64) -> Vector3<f64> {
     let (s, c) = occupant_units::trig::sin_cos(gamma);
     Vector3::new(-s, 0.0, -c)
 }
 
-/// Axes of a segment that leans back by γ, vehicle axes: X ahead, Y to the left.
+/// Axes of a segment that leans back by γ, vehicle axes: X forward, Y left.
 pub(super) fn leaned(gamma: f64) -> Matrix3<f64> {
     let z = along(gamma);
     let y = -Vector3::y();

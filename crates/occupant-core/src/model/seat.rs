@@ -20,23 +20,23 @@ use crate::motion::state::State;
 use crate::vehicle::FrameMotion;
 use placed_text::Problems;
 
-/// Heels farther from the hips than this, m, are a mistake: nobody's legs are so long.
+/// Largest distance between hips and heels, m; more is a mistake.
 const NOBODYS_LEG_M: f64 = 1.1;
 
-/// Figures of a seating, for the user to check.
+/// Results of seating, for the user to check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seated {
-    /// Depth to which the pelvis sphere sinks into the cushion, m.
+    /// Penetration of the pelvis sphere into the cushion, m.
     pub sink_m: f64,
     /// Centre of the pelvis sphere, vehicle axes, m.
     pub pelvis_m: Vector3<f64>,
     /// Left knee, vehicle axes, m.
     pub knee_m: Vector3<f64>,
-    /// Lean of the thighs and of the lower legs, rad, as γ.
+    /// Angles γ of thighs and lower legs, rad.
     pub legs_rad: [f64; 2],
 }
 
-/// A plane that the pelvis sits on or leans against, vehicle axes.
+/// Plane of the cushion or the back, vehicle axes.
 pub(crate) struct SeatPlane {
     /// N̂, towards the body.
     pub normal: Vector3<f64>,
@@ -44,7 +44,7 @@ pub(crate) struct SeatPlane {
     pub offset_m: f64,
 }
 
-/// What the seat is made of where the pelvis sits.
+/// The seat where the pelvis is.
 pub(crate) struct Seat<'a> {
     /// Plane of the cushion.
     pub cushion: SeatPlane,
@@ -114,12 +114,12 @@ pub(crate) fn seat(
     Some((state, Seated { sink_m, pelvis_m, knee_m, legs_rad: [*thigh, *shank] }))
 }
 
-/// From the joint that carries a segment to the one by which it carries `next`, m.
+/// Vector from the joint that carries a segment to the joint by which it carries `next`, m.
 fn link_m(body: &Body, segment: Segment, next: Segment) -> Vector3<f64> {
     body.socket_m(next) - body.joint_m(segment)
 }
 
-/// Depth at which the cushion carries the weight that rests on it.
+/// Penetration at which the cushion carries the weight on it.
 fn sink(
     body: &Body,
     seat: &Seat<'_>,
@@ -173,7 +173,7 @@ fn depth_under(force: &Force, load: f64) -> Option<f64> {
     (depth.is_finite() && (force - load).abs() < 1e-6 * load.max(1.0)).then_some(depth)
 }
 
-/// Centre of the pelvis sphere: tangent to the back, sunk into the cushion, at the given lateral place.
+/// Centre of the pelvis sphere: tangent to the back, penetrating the cushion, at the given lateral position.
 fn place_pelvis(
     seat: &Seat<'_>,
     radius_m: f64,
@@ -191,27 +191,27 @@ fn place_pelvis(
     centre
 }
 
-/// Lean of thigh and lower leg, rad.
+/// Angle γ of thigh and lower leg, rad.
 struct Leg {
     thigh: f64,
     shank: f64,
 }
 
 impl Leg {
-    /// Lean of the limb's thigh, angle of its knee.
+    /// Angle γ of the thigh, angle of the knee.
     fn angle_rad(&self, limb: &Limb, segment: Segment) -> Option<f64> {
         let knee = (segment == limb.lower).then_some(self.thigh - self.shank);
         if segment == limb.upper { Some(self.thigh) } else { knee }
     }
 }
 
-/// Length of a link in the X–Z plane of its segment, m, and how far it leans ahead of the segment's Z axis, rad.
+/// Length of a link in the X–Z plane of its segment, m, and its angle ahead of the segment's Z axis, rad.
 fn planar(link_m: &Vector3<f64>) -> (f64, f64) {
     let ahead = occupant_units::trig::atan2(link_m.x, -link_m.z);
     ((link_m.x * link_m.x + link_m.z * link_m.z).sqrt(), ahead)
 }
 
-/// From the knee to the heel, the far end of the leg, along the lower leg's axes, m.
+/// Vector from the knee to the heel, the distal end of the leg, lower-leg axes, m.
 fn to_heel_m(body: &Body, limb: &Limb) -> Vector3<f64> {
     match limb.end {
         Some(foot) => link_m(body, limb.lower, foot) - body.joint_m(foot),
@@ -219,12 +219,12 @@ fn to_heel_m(body: &Body, limb: &Limb) -> Vector3<f64> {
     }
 }
 
-/// The least angle between the links of an arm that reaches for something, and steps of the search for it.
+/// Largest bend between the links of a reaching arm, and steps of the search.
 const BENT_MOST_RAD: f64 = 2.6;
 const HALVINGS: usize = 40;
 
-/// Angles of a seated body with those of its arms such that its hands are at `hands_m`, [x, z], the elbows below the line from the
-/// shoulders; arms that are too short point there, and forearms that hang on no pin of their own stay as they are said.
+/// Angles of a seated body with those of its arms that put its hands at `hands_m`, [x, z], elbows below the line from
+/// the shoulders. Arms that are too short point there; forearms without an own pin keep their given angles.
 fn reach(
     body: &Body,
     angles_rad: &[(String, f64)],
@@ -273,12 +273,12 @@ fn reach(
     angles
 }
 
-/// A point of a segment in vehicle axes, given from its lower end.
+/// A point of a segment given from its lower end, vehicle axes, m.
 fn end_m(body: &Body, pose: &Pose, t1_m: Vector3<f64>, segment: Segment, point: Vector3<f64>) -> Vector3<f64> {
     t1_m - pose.t1_m(body, segment, Vector3::zeros()) + pose.axes[segment.index()] * point
 }
 
-/// The middle of a hand: of its sphere, or the far end of the arm.
+/// Centre of a hand: of its sphere, or the distal end of the arm.
 fn palm(body: &Body, arm: &Limb) -> (Segment, Vector3<f64>) {
     let last = arm.end.unwrap_or(arm.lower);
     let is_hand = |sphere: &&crate::body::ContactSphere| sphere.segment == last && sphere.name.ends_with("_hand");
@@ -286,7 +286,7 @@ fn palm(body: &Body, arm: &Limb) -> (Segment, Vector3<f64>) {
     (last, sphere.map_or_else(Vector3::zeros, |sphere| sphere.centre_from_lower_end_m.coords))
 }
 
-/// Says where the feet are that do not reach the heels' place.
+/// Warns where the feet are if they do not reach the heel point.
 fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) {
     let [x, z] = seating.heels_m;
     if (heel_m.x - x).hypot(heel_m.z - z) < 1e-6 {
@@ -304,7 +304,8 @@ fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) 
     );
 }
 
-/// Legs too short for the heels' place: along the cushion, and from the knees down to the height of the heels if they reach.
+/// Leg that is too short for the heel point: along the cushion, and from the knees down to the height of the heels if
+/// possible.
 fn short_leg(a: f64, b: f64, hip: Vector3<f64>, cushion: &Vector3<f64>, heel_z: f64) -> [f64; 2] {
     let thigh = occupant_units::trig::atan2(-cushion.z, cushion.x);
     let down = (heel_z - (hip - along(thigh) * a).z) / b;
@@ -312,7 +313,7 @@ fn short_leg(a: f64, b: f64, hip: Vector3<f64>, cushion: &Vector3<f64>, heel_z: 
     [thigh, shank]
 }
 
-/// Two links from `hip` to the heel in the X_v–Z_v plane, the knee above the line.
+/// Two links from `hip` to the heel in the X_v–Z_v plane, the knee above their line.
 fn leg(
     body: &Body,
     limb: &Limb,

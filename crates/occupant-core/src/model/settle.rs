@@ -29,34 +29,35 @@ use crate::vehicle::FrameMotion;
 use occupant_units::trig;
 use placed_text::Problems;
 
-/// Lever that turns moments into comparable forces, m.
+/// Lever that converts moments to comparable forces, m.
 pub(super) const LEVER_M: f64 = 0.3;
-/// Iterations at most.
+/// Largest number of iterations.
 const ITERATIONS: usize = 200;
-/// A step that leaves more than this part of the load has shown that the slopes are others.
+/// Fraction of the load left by a step above which the slopes are computed anew.
 const POOR: f64 = 0.5;
-/// Elements that are looked at in search of rest, at most: about a second's work. What is left over then is told as ever.
+/// Largest number of element evaluations in search of rest: about a second's work. The remaining load is reported as
+/// usual.
 pub(super) const MOST_LOOKS: usize = 2_000_000;
 
 /// Outcome of settling.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Settled {
-    /// Distance that T1 moved, m.
+    /// Displacement of T1, m.
     pub moved_m: f64,
-    /// Angle that the body turned, rad.
+    /// Rotation of the body, rad.
     #[serde(rename = "turned_deg", serialize_with = "in_degrees")]
     pub turned_rad: f64,
-    /// Force left over, N.
+    /// Remaining force, N.
     pub residual_force_n: f64,
-    /// Moment left over about T1, N·m.
+    /// Remaining moment about T1, N·m.
     pub residual_moment_n_m: f64,
     /// Weight of the body, N.
     pub weight_n: f64,
-    /// The joint that lacks most to hold the posture, of a body whose joints have something to hold.
+    /// Joint with the largest moment missing to hold the posture, of a body whose joints can hold any.
     pub lack: Option<Lack>,
 }
 
-/// What a joint lacks at the start to hold the posture: with it the body would rest, without it sags from there.
+/// Moment missing in a joint at the start to hold the posture: without it, the body sags.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Lack {
     /// Name of the joint.
@@ -70,15 +71,15 @@ fn in_degrees<S: Serializer>(angle_rad: &f64, serializer: S) -> Result<S::Ok, S:
 }
 
 impl Settled {
-    /// How long what is left over spoils the figures of a run, s.
+    /// Time for which a remaining load affects the results of a run, s.
     pub const FADES_S: f64 = 0.05;
 
-    /// Whether so much is left over, a tenth of the weight, that it spoils them.
+    /// Whether the remaining load, above a tenth of the weight, affects results.
     pub fn is_unbalanced(&self) -> bool {
         self.residual_force_n > 0.1 * self.weight_n
     }
 
-    /// Warns when the body does not rest.
+    /// Warns if the body is not at rest.
     pub(crate) fn warn(&self, problems: &mut Problems) {
         if self.residual_force_n > 0.01 * self.weight_n || self.residual_moment_n_m > 0.01 * self.weight_n * LEVER_M {
             problems.warning(
@@ -93,7 +94,7 @@ impl Settled {
     }
 }
 
-/// What is left over where the body is.
+/// Remaining load in the present position.
 pub(crate) fn kept(
     setup: &Setup,
     data: &Data<'_>,
@@ -115,12 +116,12 @@ fn settled(setup: &Setup, x: &Vector6<f64>, r: &Vector6<f64>) -> Settled {
     }
 }
 
-/// A standing body is looked for this far above and below where it was put, m.
+/// Search range above and below the given position of a standing body, m.
 const STAND_M: f64 = 0.5;
-/// It is first sought in steps of this, m: less than a foot sinks in before it is behind a surface.
+/// First search step, m: less than the penetration at which a foot is behind a surface.
 const STAND_STEP_M: f64 = 0.005;
 
-/// Raises or lowers `state` to where what is below carries its weight: both feet share it where they reach down as far.
+/// Raises or lowers `state` until the ground carries its weight; both feet share it if they reach down equally far.
 pub(crate) fn stand(
     setup: &Setup,
     data: &Data<'_>,
@@ -152,7 +153,7 @@ pub(crate) fn stand(
     raised(0.5 * (low + high))
 }
 
-/// Moves `state` as one piece to where contacts and belts balance its weight.
+/// Moves `state` as a rigid body until contacts and belts balance its weight.
 pub(crate) fn settle(
     setup: &Setup,
     data: &Data<'_>,
@@ -174,9 +175,9 @@ pub(crate) fn settle(
     if rests { None } else { lower() }.unwrap_or((end, found))
 }
 
-/// How far a damped Newton iteration comes from x = 0, where `load` is `r`, to where it is less than `enough`, N: there, and the
-/// load there; it ends where `load` gives none. Differences give the slopes where nothing is known of them, or what is known
-/// leads nowhere; else each step corrects them by what it found (Broyden 1965).
+/// Damped Newton iteration from x = 0, with load `r`, until the load is less than `enough`, N: the position and its
+/// load; it ends where `load` is undefined. Difference quotients give the slopes where none are known, or where the
+/// known ones lead nowhere. `free` projects steps on to the permitted directions.
 fn balanced(
     mut r: Vector6<f64>,
     enough: f64,
@@ -206,10 +207,10 @@ fn balanced(
     (x, r)
 }
 
-/// A body that goes down farther than this to its rest, m, or turns farther, rad, falls from its seat.
+/// Descent to rest, m, and rotation, rad, beyond which a body counts as fallen from its seat.
 const FALLS: [f64; 2] = [0.3, 0.5];
 
-/// The body where it rests below the place where it was `seated`, if it does so near there.
+/// Body at rest below its `seated` position, if it rests near it.
 fn lowered(mut body: Locked<'_, '_>, seated: &State<f64>, weight_n: f64) -> Option<(State<f64>, Settled)> {
     let (state, g) = descend(&mut body, seated, weight_n);
     let found = limp::settled(seated, &state, &g, weight_n);
@@ -217,7 +218,7 @@ fn lowered(mut body: Locked<'_, '_>, seated: &State<f64>, weight_n: f64) -> Opti
     (rests && found.moved_m < FALLS[0] && found.turned_rad < FALLS[1]).then_some((state, found))
 }
 
-/// A body with locked joints that is moved by what friction does not hold.
+/// A body with locked joints, moved by loads that friction does not hold.
 struct Locked<'s, 'd> {
     body: Resting<'s, 'd>,
     free: Matrix6<f64>,
@@ -238,11 +239,11 @@ impl Movable for Locked<'_, '_> {
     }
 }
 
-/// What friction holds sideways, as a part of the weight: less than that of any seat.
+/// Fraction of the weight that friction holds sideways: less than that of any seat.
 const HELD: f64 = 0.1;
 
-/// The projector on the freedoms that friction does not hold: all but moving sideways and turning about the vehicle's vertical,
-/// where neither load is worth mentioning. The few newtons of a retractor's spool would else turn a body by 6 degrees.
+/// Projector on to the freedoms that friction does not hold: all but sideways motion and yaw, where their loads are
+/// negligible. Otherwise the few newtons of a retractor's spool would turn a body by 6 degrees.
 fn not_held(load: &Vector6<f64>, weight_n: f64, vehicle: &FrameMotion) -> Matrix6<f64> {
     let (mut sideways, mut turning) = (Vector6::zeros(), Vector6::zeros());
     sideways.fixed_rows_mut::<3>(0).copy_from(&vehicle.rotation.column(1));
@@ -252,13 +253,13 @@ fn not_held(load: &Vector6<f64>, weight_n: f64, vehicle: &FrameMotion) -> Matrix
     if is_held { Matrix6::identity() - held } else { Matrix6::identity() }
 }
 
-/// At most 2 cm (or the like in rotation) at a time: the forces are stiff and only piecewise smooth.
+/// Step limited to 2 cm (or the equivalent rotation): the forces are stiff and only piecewise smooth.
 fn limited(step: Vector6<f64>) -> Vector6<f64> {
     let norm = step.norm();
     if norm > 0.02 { step * (0.02 / norm) } else { step }
 }
 
-/// The body moved by x[0..3] (m) and turned about T1 by the rotation vector x[3..6]/lever.
+/// Body moved by x[0..3] (m) and turned about T1 by the rotation vector x[3..6]/lever.
 fn moved(state: &State<f64>, x: &Vector6<f64>) -> State<f64> {
     let turn = turned_by(&(x.fixed_rows::<3>(3) / LEVER_M));
     let mut out = *state;
@@ -270,7 +271,7 @@ fn moved(state: &State<f64>, x: &Vector6<f64>) -> State<f64> {
     out
 }
 
-/// The rotation of a rotation vector (rad).
+/// Rotation by a rotation vector (rad).
 pub(super) fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
     let angle = vector.norm();
     if angle == 0.0 {
@@ -281,17 +282,17 @@ pub(super) fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + cross * sine + cross * cross * (1.0 - cosine)
 }
 
-/// A body that is tried in one place after the other, at rest relative to the vehicle.
+/// A body tried in one position after another, at rest relative to the vehicle.
 struct Resting<'s, 'd> {
     setup: &'s Setup,
     data: Data<'d>,
     system: System<f64>,
     still: Frames<f64>,
     history: History<f64>,
-    /// The motion where it is tried, and a place for what an evaluation finds there.
+    /// Trial motion, and scratch space for its evaluation.
     k: Box<Kinematics<f64>>,
     scratch: Box<Scratch<f64>>,
-    /// Elements looked at so far.
+    /// Number of element evaluations so far.
     looks: usize,
 }
 
@@ -307,7 +308,8 @@ impl<'s, 'd> Resting<'s, 'd> {
         Resting { setup, data, system, still, history, k, scratch, looks: 0 }
     }
 
-    /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight, by which belts are laid.
+    /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight, with belts laid
+    /// accordingly.
     fn load(&mut self, state: &State<f64>) -> Vector6<f64> {
         let Resting { setup, data, system, still, history, k, scratch, looks } = self;
         k.follow(&system.skeleton, state, None);
@@ -327,7 +329,7 @@ impl<'s, 'd> Resting<'s, 'd> {
     }
 }
 
-/// All frames where they are at the start, at rest: no friction, no damping.
+/// All frames in their initial positions at rest: no friction, no damping.
 pub(super) fn standing(setup: &Setup, vehicle: &FrameMotion) -> Frames<f64> {
     let start_s = setup.time.start_s;
     let mut still = frames(start_s, &vehicle.held());
@@ -339,7 +341,7 @@ pub(super) fn standing(setup: &Setup, vehicle: &FrameMotion) -> Frames<f64> {
     still
 }
 
-/// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that are at rest.
+/// Sets the moments that muscles carry at the start, for a settled body at rest in frames at rest.
 pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
     let mut scratch = Scratch::blank(system);
     let (k, loads) = system.loads(&mut scratch, Situation::within(state, still), &mut history.clone());
@@ -349,7 +351,7 @@ pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames
     }
 }
 
-/// The joint of a resting body that lacks most to hold its posture; none if all hold it.
+/// Joint of a resting body with the largest moment missing to hold its posture; none if all hold it.
 pub(super) fn lack(
     system: &System<f64>,
     body: &Body,
@@ -367,8 +369,8 @@ pub(super) fn lack(
     lacks.max_by(|a, b| a.moment_n_m.total_cmp(&b.moment_n_m)).filter(|lack| lack.moment_n_m > 0.0)
 }
 
-/// Force and moment at its joint that each segment of a resting body feels with all that hangs on it, N and N·m, of the loads
-/// on each.
+/// Force and moment at the proximal joint of each segment of a resting body from the loads on it and all that is
+/// distal, N and N·m.
 pub(super) fn loads_beyond(
     skeleton: &Skeleton<f64>,
     k: &Kinematics<f64>,
@@ -388,7 +390,7 @@ pub(super) fn loads_beyond(
     loads
 }
 
-/// The part of the moment on what hangs on a joint that turns it: of a pin the segments themselves carry what does not bend it.
+/// Part of the moment on the distal body that turns the joint: the rest, of a pin, is carried by the segments.
 fn turning(
     skeleton: &Skeleton<f64>,
     k: &Kinematics<f64>,
@@ -405,14 +407,14 @@ fn turning(
     }
 }
 
-/// −(JᵀJ + λ1)⁻¹Jᵀr, shortened where it is too long.
+/// −(JᵀJ + λ1)⁻¹Jᵀr, limited in length.
 fn step(j: &Matrix6<f64>, r: &Vector6<f64>, damping: f64) -> Option<Vector6<f64>> {
     let normal = j.tr_mul(j);
     let shift = Matrix6::from_diagonal_element(damping * normal.diagonal().max() + 1e-9);
     (normal + shift).lu().solve(&j.tr_mul(r)).map(|s| limited(-s))
 }
 
-/// Differences over a thousandth of a millimetre (or the like in rotation) from x, where the load is `r`.
+/// Difference quotients over a thousandth of a millimetre (or the equivalent rotation) from x, with the load `r` there.
 fn slopes(
     x: &Vector6<f64>,
     r: &Vector6<f64>,

@@ -34,54 +34,56 @@ use crate::vehicle::{PathCursor, VehiclePath};
 /// Standard gravity, 9.80665 m/s².
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
 
-/// Time between two outputs where nobody says otherwise.
+/// Default time between two outputs, s.
 pub const DEFAULT_OUTPUT_S: f64 = 1e-3;
 
 /// Start, end and output times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeSpan {
-    /// Start of the run.
+    /// Start of the run, s.
     pub start_s: f64,
-    /// End of the run.
+    /// End of the run, s.
     pub end_s: f64,
-    /// Results are recorded at `start_s + k·output_s` exactly, and at the end.
+    /// Interval of results, s: at `start_s + k·output_s` exactly, and at the end.
     pub output_s: f64,
-    /// Whether the run ends before its end once all bodies have come to rest in space.
+    /// Whether the run ends early when all bodies have come to rest in space.
     pub stops_at_rest: bool,
 }
 
 impl TimeSpan {
-    /// Output intervals before the last one, which may be shorter; one that misses the end by rounding alone is the last.
+    /// Number of output intervals before the last, which may be shorter; one that misses the end by rounding only is
+    /// the last.
     pub(crate) fn whole_intervals(&self) -> f64 {
         ((self.end_s - self.start_s) / self.output_s - 1e-9).floor().max(0.0)
     }
 }
 
-/// How the equations of motion are integrated.
+/// Integration of the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Integrator {
     /// Classical fourth-order Runge–Kutta with a fixed step.
     Rk4 {
-        /// Step.
+        /// Step, s.
         step_s: f64,
     },
     /// Embedded 3(2) pair with error control.
     Adaptive {
-        /// Relative tolerance on speeds; positions have an absolute one alone.
+        /// Relative tolerance of velocities; positions have an absolute one only.
         relative: f64,
-        /// Absolute tolerance on positions, m; angles are taken at a radius of 1 m.
+        /// Absolute tolerance of positions, m; angles count at a radius of 1 m.
         absolute_m: f64,
-        /// Absolute tolerance on speeds, m/s.
+        /// Absolute tolerance of velocities, m/s.
         absolute_m_s: f64,
-        /// The smallest step that error control may ask for; less ends the run with an error. The first trial is ten times it.
+        /// Smallest step of error control, s; a smaller one ends the run with an error. The first trial is ten times as
+        /// long.
         min_step_s: f64,
-        /// The largest step allowed.
+        /// Largest step, s.
         max_step_s: f64,
     },
 }
 
 impl Default for Integrator {
-    /// Error control as `docs/accuracy.md` chooses it.
+    /// Error control as chosen in `docs/accuracy.md`.
     fn default() -> Self {
         Integrator::Adaptive {
             relative: 3e-8,
@@ -94,8 +96,7 @@ impl Default for Integrator {
 }
 
 impl Integrator {
-    /// Of a run of `span_s` seconds of which nobody has said how it is integrated: as accurate as a scenario's that does not say
-    /// it.
+    /// Default for a run of `span_s` seconds: as accurate as a scenario without `[integrator]`.
     #[must_use]
     pub fn or_engineering(self, span_s: f64) -> Self {
         if self == Integrator::default() { Accuracy::default().integrator(span_s) } else { self }
@@ -109,7 +110,7 @@ impl Integrator {
         }
     }
 
-    /// The longest step that it can take, s.
+    /// Longest possible step, s.
     pub(crate) fn longest_step_s(&self) -> f64 {
         match *self {
             Integrator::Rk4 { step_s } => step_s,
@@ -118,14 +119,14 @@ impl Integrator {
     }
 }
 
-/// What is recorded besides the results every run has.
+/// Optional outputs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutputOptions {
-    /// Also record the report's q₁…q₃₁ and their rates.
+    /// Whether the report's q₁…q₃₁ and their rates are recorded.
     pub report_coordinates: bool,
     /// Points of segments whose motion is recorded.
     pub markers: Vec<Marker>,
-    /// How often instruments are read for measures, s; 0.1 ms if nobody says.
+    /// Interval at which instruments are read for measures, s; default 0.1 ms.
     pub readings_s: Option<f64>,
 }
 
@@ -134,29 +135,29 @@ pub struct OutputOptions {
 pub struct Marker {
     /// Name in results.
     pub name: String,
-    /// The segment that carries it.
+    /// Segment that carries it.
     pub segment: Segment,
-    /// Segment axes.
+    /// Position, segment axes.
     pub place_from_lower_end_m: Point3<f64>,
-    /// Who sees its motion.
+    /// Frame of reference of its motion.
     pub frame: MarkerFrame,
 }
 
 impl Marker {
-    /// The same among several bodies, of a member with this name whose segments begin at `first`.
+    /// The same for one of several bodies, with this name, whose segments begin at index `first`.
     pub(crate) fn of_member(&self, name: &str, first: usize) -> Self {
         let segment = self.segment.behind(first);
         Marker { name: called(name, &self.name), segment, ..self.clone() }
     }
 
-    /// As the kernel sees it: a sphere without a radius.
+    /// Sphere without radius, for the kernel.
     pub(crate) fn site(&self, body: &Body) -> Site<f64> {
         let (segment, centre_from_lower_end_m) = (self.segment, self.place_from_lower_end_m);
         Site::new(body, &ContactSphere::new(&self.name, segment, centre_from_lower_end_m, 0.0))
     }
 }
 
-/// Who sees the motion of a marker.
+/// Frame of reference of a marker's motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -166,24 +167,24 @@ pub enum MarkerFrame {
     Vehicle,
     /// Space.
     Space,
-    /// An accelerometer on the segment.
+    /// Accelerometer on the segment.
     Segment,
 }
 
-/// A frame besides the first vehicle: another vehicle, the ground, a panel.
+/// Frame other than the first vehicle: another vehicle, the ground, a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OtherFrame {
     /// Unique name.
     pub name: String,
-    /// How it moves in space; of a panel, where its parent takes the place of vehicle-space: how it is moved from where its
-    /// geometry is given.
+    /// Motion in space; of a panel, relative to its parent: displacement from the position in which its geometry is
+    /// given.
     pub path: VehiclePath,
-    /// What a panel moves against, one of the frames before it, and the point of it about which the panel turns, m.
+    /// Parent of a panel, a frame before it, and the point of the parent about which the panel turns, m.
     pub parent: Option<(Frame, Point3<f64>)>,
 }
 
 impl OtherFrame {
-    /// Its motion, where those of the frames before it are known.
+    /// Its motion, given those of the frames before it.
     fn moving(&self, frames: &Frames<f64>, t_s: f64, step_middle_s: f64) -> Moving<f64> {
         let motion = Moving::of(&self.path.motion_within(t_s, step_middle_s, &mut PathCursor::default()));
         let Some((parent, origin_m)) = &self.parent else { return motion };
@@ -196,38 +197,39 @@ impl OtherFrame {
     }
 }
 
-/// The drive, given at its stations; clones share it.
+/// History of a driven vehicle at its stations; clones share it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveLog {
     /// Name of the vehicle.
     pub name: String,
-    /// Times of the stations, s, rising.
+    /// Times of the stations, s, increasing.
     pub times_s: Arc<[f64]>,
-    /// Numbers at each, SI, in the order of the catalogue's: speed, slip angle, steering, crush, force of what it hits, force of the ground
-    /// on its hull, then of each wheel load, travel, spin, brake torque, sliding ahead and aside, force ahead and aside, saturation.
+    /// Values at each station, SI, in the order of the catalogue: speed, slip angle, steering, crush, force of the
+    /// struck object, force of the ground on its hull, then of each wheel load, travel, spin, brake torque,
+    /// longitudinal and lateral slip, longitudinal and lateral force, saturation.
     pub rows: Arc<[[f64; DRIVE_NUMBERS]]>,
 }
 
-/// Numbers of a station of a drive: of the vehicle, and of each of four wheels.
+/// Count of values at a station of a drive: of the vehicle, and of each of four wheels.
 pub const DRIVE_NUMBERS: usize = 6 + 4 * 9;
 
-/// A figure of what was computed before the run, such as where a vehicle came to rest.
+/// A result computed before the run, such as where a vehicle came to rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fact {
     /// Name, such as `drive.car.delta_v`.
     pub name: String,
-    /// Its SI unit.
+    /// SI unit.
     pub unit: &'static str,
     /// Value, SI.
     pub value: f64,
 }
 
-/// Something that is drawn and touches nothing.
+/// Drawn geometry without contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenery {
     /// Its name.
     pub name: String,
-    /// The frame that it moves with.
+    /// Frame that carries it.
     pub frame: Frame,
     /// Convex polygons, m.
     pub polygons_m: Vec<Vec<Point3<f64>>>,
@@ -236,18 +238,18 @@ pub struct Scenery {
 /// One of several bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Member {
-    /// Its name: small letters, digits and `_`; none of a first one that stands at the top of a scenario.
+    /// Name: small letters, digits and `_`; none for a first body at the top of a scenario.
     pub name: String,
-    /// The frame in whose axes it begins and its positions are reported.
+    /// Home frame, in whose axes it begins and its positions are reported.
     pub home: Frame,
-    /// The spheres (indices) that can touch each surface, then each solid; all of them where there is no list.
+    /// Spheres (indices) that can touch each surface, then each solid; all where there is no list.
     pub meets: Vec<Option<Vec<usize>>>,
-    /// The body alone: its home is the vehicle there.
+    /// The body alone, with its home as the vehicle.
     pub alone: Setup,
 }
 
 impl Member {
-    /// Whether it is a rigid body that moves freely, not an occupant.
+    /// Whether it is a free rigid body, not an occupant.
     pub(crate) fn is_loose(&self) -> bool {
         self.alone.body.name == LOOSE
     }
@@ -261,32 +263,32 @@ impl Member {
 /// Name of the frame at rest.
 pub const GROUND: &str = "ground";
 
-/// What the body is called of which a loose one consists.
+/// Name of the segment of a free rigid body.
 pub const LOOSE: &str = "body";
 
-/// Everything a run needs.
+/// Input of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// One line that names the case.
+    /// Title, one line.
     pub title: String,
     /// The occupant.
     pub body: Body,
     /// Its joints.
     pub joints: Joints,
-    /// g, along −Z′; 0 switches gravity off.
+    /// g, along −Z′, m/s²; 0: no gravity.
     pub gravity_m_s2: f64,
     /// Contact materials.
     pub materials: Vec<Material>,
-    /// Surfaces, vehicle's and space's.
+    /// Surfaces of vehicles and of space.
     pub surfaces: Vec<Surface>,
-    /// Solids, vehicle's and space's. Where results and seats name a surface by its index, they stand behind all surfaces.
+    /// Solids of vehicles and of space. Indices of results and seats count them after all surfaces.
     pub solids: Vec<Solid>,
-    /// Surfaces, and solids behind all surfaces (indices), that the spine leans on, such as a seat's back: a chest that yields
-    /// meets them as a rigid one.
+    /// Surfaces, and solids after all surfaces (indices), that support the spine, such as a seat back: to them, a
+    /// deformable chest is rigid.
     pub behind: Vec<usize>,
-    /// Where the edge force acts.
+    /// Condition of the edge force.
     pub edge_force: EdgeForce,
-    /// What parts of the body do to each other; none if they go through each other, as in the report.
+    /// Contact of the body with itself; none as in the report, where its parts pass through each other.
     pub self_contact: Option<SelfContact>,
     /// Belts.
     pub belts: Vec<Belt>,
@@ -294,27 +296,27 @@ pub struct Setup {
     pub chains: Vec<Chain>,
     /// Air bags.
     pub bags: Vec<Bag>,
-    /// Steering columns and hinges that yield, each of which carries one of `frames`.
+    /// Yielding steering columns and hinges, each of which carries one of `frames`.
     pub columns: Vec<Column>,
-    /// What resists the deflections of the body's plates.
+    /// Springs and dampers of the body's plates.
     pub bands: Vec<Band>,
-    /// Forces that the program brings itself.
+    /// Forces of the calling program.
     pub own_forces: Vec<OwnForce>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
-    /// What is drawn and touches nothing: the road, the outside of vehicles.
+    /// Drawn geometry without contact: the road, the outside of vehicles.
     pub scenery: Vec<Scenery>,
-    /// Figures of what was computed before the run, for tables.
+    /// Results computed before the run, for tables.
     pub facts: Vec<Fact>,
-    /// Histories of vehicles that were driven before the run.
+    /// Histories of vehicles driven before the run.
     pub logs: Vec<DriveLog>,
-    /// Frames besides the vehicle's and space.
+    /// Frames other than the vehicle and space.
     pub frames: Vec<OtherFrame>,
-    /// The bodies, where there are several.
+    /// The bodies, if there are several.
     pub members: Vec<Member>,
-    /// Position at the start.
+    /// Initial position.
     pub posture: InitialPosture,
-    /// Velocity at the start.
+    /// Initial velocity.
     pub velocity: InitialVelocity,
     /// Times.
     pub time: TimeSpan,
@@ -325,7 +327,7 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// What it has that no scenario can say, in words: what a program brings itself.
+    /// Parts that no scenario can contain, as text: those of the calling program.
     pub fn beyond_scenario(&self) -> Vec<String> {
         let forces = self.own_forces.iter().map(|own| format!("the program's own force `{}`", own.name));
         let path = match self.path {
@@ -336,7 +338,7 @@ impl Setup {
         path.map(str::to_owned).into_iter().chain(forces).collect()
     }
 
-    /// The longest step that a fixed step comes to, s: none is longer than an output interval; none under error control.
+    /// Largest length of a fixed step, at most an output interval, s; none with error control.
     pub(crate) fn fixed_step_s(&self) -> Option<f64> {
         let longest_s = self.time.output_s.min(self.time.end_s - self.time.start_s);
         match self.integrator {
@@ -345,14 +347,14 @@ impl Setup {
         }
     }
 
-    /// Adds the motions of all frames but space and the vehicle.
+    /// Adds the motions of all frames except space and the vehicle.
     pub(crate) fn place_frames(&self, frames: &mut Frames<f64>, step_middle_s: f64) {
         for (i, other) in self.frames.iter().take(MOST_FRAMES - VEHICLE - 1).enumerate() {
             frames[VEHICLE + 1 + i] = other.moving(frames, frames.time, step_middle_s);
         }
     }
 
-    /// The vehicle, or space or the ground, that a frame belongs to: what carries it in the end.
+    /// Vehicle, space or ground that carries a frame, directly or through other frames.
     pub(crate) fn belongs_to(&self, frame: Frame) -> Frame {
         let parent = |frame: Frame| match frame {
             Frame::Other(i) => self.frames.get(i)?.parent.map(|(parent, _)| parent),
@@ -372,13 +374,13 @@ impl Setup {
         }
     }
 
-    /// Whether there is more than one body in one vehicle: whether any may be struck.
+    /// Whether any vehicle contains more than one body, so that bodies may strike each other.
     pub(crate) fn is_open(&self) -> bool {
         let mut frames = self.surfaces.iter().map(|s| s.frame).chain(self.solids.iter().map(|s| s.frame));
         !self.members.is_empty() || frames.any(|frame| matches!(self.belongs_to(frame), Frame::Other(_)))
     }
 
-    /// By body: the frame of its home, and the condyles seen from the neck's joint.
+    /// By body: its home frame, and the condyles from the neck's joint.
     pub(crate) fn instrument_sites(&self) -> Vec<(usize, Option<nalgebra::Vector3<f64>>)> {
         let condyles_m = |of: usize| self.members.get(of).map_or(self.body.condyles_m, |m| m.alone.body.condyles_m);
         self.homes().iter().enumerate().map(|(of, home)| (home.index(&[]), condyles_m(of))).collect()
@@ -389,7 +391,7 @@ impl Setup {
         if self.members.is_empty() { vec![Frame::Vehicle] } else { self.members.iter().map(|m| m.home).collect() }
     }
 
-    /// Whether the body is on a rig that holds it or lets it go: then it may be a part of one.
+    /// Whether the body is mounted or placed as on a rig: then it may be part of a whole body.
     pub(crate) fn is_on_rig(&self) -> bool {
         match &self.posture {
             InitialPosture::Placed(placing) => !placing.stands,
@@ -397,24 +399,24 @@ impl Setup {
         }
     }
 
-    /// What holds the body's first segment; none of a body that is free.
+    /// Mounting of the body's first segment; none for a free body.
     pub fn mounting(&self) -> Option<&Mounting> {
         if let InitialPosture::Mounted(mounting) = &self.posture { Some(mounting) } else { None }
     }
 
-    /// Names of surfaces, then of solids, then of spheres that can be touched by others.
+    /// Names of surfaces, then of solids, then of spheres that others can touch.
     pub fn surface_names(&self) -> impl Iterator<Item = &str> {
         let spheres = self.self_contact.iter().flat_map(|_| self.body.spheres.iter().map(|s| s.name.as_str()));
         let solids = self.solids.iter().map(|s| s.name.as_str());
         self.surfaces.iter().map(|s| s.name.as_str()).chain(solids).chain(spheres)
     }
 
-    /// Name of the surface, solid or sphere of this index; none for one that does not exist.
+    /// Name of the surface, solid or sphere with this index, if there is one.
     pub fn surface_name(&self, index: usize) -> Option<&str> {
         self.surface_names().nth(index)
     }
 
-    /// Index of the material of the surface, solid or sphere of this index, which there must be.
+    /// Index of the material of the surface, solid or sphere with this index, which must exist.
     pub fn surface_material(&self, index: usize) -> usize {
         let solids = self.solids.iter().map(|s| s.material);
         let skins = self.self_contact.iter().flat_map(|own| own.skins.iter().copied());
@@ -422,7 +424,7 @@ impl Setup {
         all.nth(index).unwrap_or_default()
     }
 
-    /// What it says of force elements; `faces` are the planes of its surfaces.
+    /// Data of force elements; `faces` are the planes of its surfaces.
     pub(crate) fn forces<'a>(&'a self, faces: &'a [FlatFace]) -> Data<'a> {
         let contacts = ContactData {
             surfaces: &self.surfaces,
@@ -450,15 +452,15 @@ impl Setup {
     }
 }
 
-/// Puts a [`Setup`] together. What is not said is as in a scenario that does not say it.
+/// Builder of a [`Setup`]. Defaults are those of scenarios.
 #[derive(Clone, Debug)]
 pub struct SetupBuilder {
-    /// The case so far, with a scenario's defaults. Its path, its posture and its end are given last.
+    /// The setup so far, with the defaults of scenarios. Path, posture and end are given last.
     pub setup: Setup,
 }
 
 impl SetupBuilder {
-    /// A case with this occupant, without belts and with nothing to touch.
+    /// A setup with this occupant, without belts and contacts.
     pub fn new(title: impl Into<String>, body: Body, joints: Joints) -> Self {
         let setup = Setup {
             title: title.into(),
@@ -492,13 +494,13 @@ impl SetupBuilder {
         SetupBuilder { setup }
     }
 
-    /// Adds a material and gives its index, which surfaces refer to.
+    /// Adds a material and returns its index, for surfaces.
     pub fn material(&mut self, material: Material) -> usize {
         self.setup.materials.push(material);
         self.setup.materials.len() - 1
     }
 
-    /// Adds a surface and gives its index, which a [`Seating`](crate::model::seating::Seating) refers to.
+    /// Adds a surface and returns its index, for a [`Seating`](crate::model::seating::Seating).
     pub fn surface(&mut self, surface: Surface) -> usize {
         self.setup.surfaces.push(surface);
         self.setup.surfaces.len() - 1
@@ -509,14 +511,15 @@ impl SetupBuilder {
         self.setup.belts.push(belt);
     }
 
-    /// Adds a force of the program's own under a name: its channels are `own_force.NAME.*`.
+    /// Adds an own force with a name: its channels are `own_force.NAME.*`.
     pub fn force(&mut self, name: impl Into<String>, force: impl Force + 'static) {
         self.setup.own_forces.push(OwnForce::new(name, force));
     }
 
     /// The setup: this occupant in a vehicle that moves along `path`, from `posture` until `end_s`.
     ///
-    /// Nothing is checked here: [`Model::new`](crate::model::Model::new) reports all problems at once.
+    ///
+    /// Not checked here: [`Model::new`](crate::model::Model::new) reports all problems at once.
     pub fn build(self, path: VehiclePath, posture: InitialPosture, end_s: f64) -> Setup {
         let time = TimeSpan { end_s, ..self.setup.time };
         let integrator = self.setup.integrator.or_engineering(time.end_s - time.start_s);

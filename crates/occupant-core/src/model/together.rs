@@ -16,7 +16,7 @@ use placed_text::{Problem, Problems};
 const OWN: [&str; 9] =
     ["body", "joints", "posture", "seat", "mount", "velocity", "belts", "self_contact", "initial_state"];
 
-/// A frame as a body sees it whose home is the vehicle to it: the two change places.
+/// A frame relative to a body's home: home and vehicle are exchanged.
 fn seen_from(home: Frame, frame: Frame) -> Frame {
     match frame {
         Frame::Vehicle => home,
@@ -26,7 +26,7 @@ fn seen_from(home: Frame, frame: Frame) -> Frame {
 }
 
 impl Setup {
-    /// The same for one body whose home takes the vehicle's place; surfaces of other bodies meet nothing there.
+    /// The same for one body whose home replaces the vehicle; surfaces of other bodies touch nothing there.
     #[must_use]
     pub fn at_home(mut self, home: Frame) -> Setup {
         let seen = |frame: Frame| if frame.segment().is_some() { Frame::Space } else { seen_from(home, frame) };
@@ -56,7 +56,7 @@ impl Setup {
         self
     }
 
-    /// Puts `members` into this setup's world. The setup's own body, joints, belts and posture are ignored.
+    /// Adds `members` to this setup. The setup's own body, joints, belts and posture are ignored.
     #[must_use]
     pub fn together(self, members: Vec<Member>, pairs: &[[(usize, usize); 2]], skins: &[usize]) -> Setup {
         let mut all = Setup { body: bodies(&members), members, posture: InitialPosture::Together, ..self };
@@ -126,7 +126,7 @@ fn bodies(members: &[Member]) -> Body {
     Body::together(&all)
 }
 
-/// A node of a belt among the segments and spheres of others.
+/// Node of a belt with indices among the segments and spheres of all bodies.
 fn moved(node: &Node, segment: usize, sphere: usize, first: usize) -> Node {
     let site = match &node.site {
         site @ NodeSite::Vehicle(..) => site.clone(),
@@ -138,7 +138,7 @@ fn moved(node: &Node, segment: usize, sphere: usize, first: usize) -> Node {
     Node { site, ride, ..node.clone() }
 }
 
-/// The members as models of their own; none if there is one body.
+/// The members as models of their own; none with a single body.
 pub(super) fn alone(setup: &Setup, problems: &mut Problems) -> Option<Vec<Model>> {
     let mut models = Vec::new();
     for member in &setup.members {
@@ -157,7 +157,7 @@ pub(super) fn alone(setup: &Setup, problems: &mut Problems) -> Option<Vec<Model>
     (models.len() == setup.members.len()).then_some(models)
 }
 
-/// Takes over what was found of a member; what is wrong with the world is said once.
+/// Adds the problems of a member; those of common parts once.
 fn absorb(member: &Member, found: &Problems, problems: &mut Problems) {
     for problem in found.iter() {
         let first = problem.path.split(['.', '[']).next().unwrap_or_default();

@@ -31,7 +31,8 @@ use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::{Link, Skeleton};
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
-/// What a subtree needs at a joint; the columns of `coupling` are the rows of B, all in space axes.
+/// Articulated-body inertia and bias force of a subtree at a joint; the columns of `coupling` are the rows of B, all in
+/// space axes.
 #[derive(Clone, Copy, Debug)]
 struct Need<S> {
     /// A.
@@ -53,7 +54,7 @@ struct Loose<S> {
     gain: M3<S>,
 }
 
-/// A hinge after the inward sweep: q̈ = `by_force`·a − `by_moment`·α − `bias`, and what α gains beside u q̈.
+/// A hinge after the inward sweep: q̈ = `by_force`·a − `by_moment`·α − `bias`, and the part of α other than u q̈.
 #[derive(Clone, Copy, Debug)]
 struct Hinge<S> {
     by_moment: V3<S>,
@@ -62,8 +63,8 @@ struct Hinge<S> {
     drift: V3<S>,
 }
 
-/// Both sweeps, with what the one outward takes over from the one inward. Every number that is read was written before in the
-/// same call.
+/// Both sweeps, with the results of the inward sweep that the outward one uses. Every number that is read was written
+/// before in the same call.
 #[derive(Clone, Debug)]
 pub(crate) struct Sweep<S> {
     needs: [Need<S>; MOST_SEGMENTS],
@@ -71,14 +72,14 @@ pub(crate) struct Sweep<S> {
     hinges: [Hinge<S>; MOST_HINGES],
 }
 
-/// The rows of m[r]× for m r, as columns.
+/// Rows of m[r]× for m r, as columns.
 #[inline(always)]
 fn cross_rows<S: Scalar>(r: V3<S>) -> M3<S> {
     let o = S::zero();
     M3 { x: v3(o, -r.z, r.y), y: v3(r.z, o, -r.x), z: v3(-r.y, r.x, o) }
 }
 
-/// The rows of −[c]×M for those of M, as columns.
+/// Rows of −[c]×M for those of M, as columns.
 #[inline(always)]
 fn levered<S: Scalar>(c: V3<S>, m: &M3<S>) -> M3<S> {
     M3 { x: m.y * c.z - m.z * c.y, y: m.z * c.x - m.x * c.z, z: m.x * c.y - m.y * c.x }
@@ -92,7 +93,7 @@ impl<S: Scalar> Need<S> {
         Need { mass: none, coupling: M3 { x: o, y: o, z: o }, inertia: none, force: o, moment: o }
     }
 
-    /// That of a segment by itself, which turns with `w`.
+    /// Articulated inertia of a single segment, with angular velocity `w`.
     #[inline(always)]
     fn of(link: &Link<S>, axes: &M3<S>, w: V3<S>, wrench: &Wrench<S>) -> Self {
         let inertia = link.inertia.out(axes);
@@ -106,7 +107,7 @@ impl<S: Scalar> Need<S> {
         }
     }
 
-    /// Takes up what a segment needs that hangs at `c` of this one, which turns with `w`.
+    /// Adds that of a segment joined at `c` of this one, which has the angular velocity `w`.
     #[inline(always)]
     fn carry(&mut self, child: &Need<S>, c: V3<S>, w: V3<S>) {
         let (m, b) = (&child.mass, &child.coupling);
@@ -130,7 +131,8 @@ impl<S: Scalar> Need<S> {
             M3 { x: self.coupling.x + coupling.x, y: self.coupling.y + coupling.y, z: self.coupling.z + coupling.z };
     }
 
-    /// Lets a point mass, which was a part of the mass, slide under the force `drive` along its axis; the segment turns with `w`.
+    /// Lets a point mass, part of the mass, slide under the force `drive` along its axis; the segment has the angular
+    /// velocity `w`.
     #[inline(always)]
     fn slide(&mut self, mass: S, slid: &Slid<S>, w: V3<S>, drive: S) {
         let (u, way, rest, r) = (slid.axis, slid.way, slid.rest, slid.arm());
@@ -153,7 +155,7 @@ impl<S: Scalar> Need<S> {
         self.moment += r.cross(force) - rest.cross(rigid);
     }
 
-    /// Lets go all moments.
+    /// Releases all rotations: a ball joint.
     #[inline(always)]
     fn loosen(&mut self) -> Loose<S> {
         let (inverse, b) = (self.inertia.inverse(), &self.coupling);
@@ -171,7 +173,7 @@ impl<S: Scalar> Need<S> {
         Loose { free, gain }
     }
 
-    /// Lets go the moment about `axis`, about which the outer side turns with an acceleration that has the part `drift`.
+    /// Releases the rotation about `axis`; the outer side's angular acceleration about it has the part `drift`.
     #[inline(always)]
     fn release(&mut self, axis: V3<S>, drift: V3<S>) -> Hinge<S> {
         self.force -= self.coupling.into_frame(drift);
@@ -192,7 +194,7 @@ impl<S: Scalar> Need<S> {
 }
 
 impl<S: Scalar> Sweep<S> {
-    /// Nothing solved yet.
+    /// Empty sweep.
     #[inline(always)]
     pub(crate) fn blank() -> Self {
         let o = V3::zero();
@@ -259,7 +261,7 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 
-    /// Force and moment that a root (index) needs at its joint once its tree is solved, where a frame carries it.
+    /// Force and moment of the carrying frame on a root (index) at its joint, after its tree is solved.
     #[inline(always)]
     pub(crate) fn at_root(&self, root: usize, a: V3<S>, alpha: V3<S>) -> Wrench<S> {
         let Need { mass, coupling, inertia, force, moment } = &self.needs[root];
@@ -270,7 +272,7 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 
-    /// Reduces what segment `n` and all that it carries need to what its joint hands on.
+    /// Reduces the articulated inertia of segment `n` to what its joint transmits.
     #[inline(always)]
     fn reduce(&mut self, n: usize, row: &Row, k: &Kinematics<S>, hinge_rate: &[S]) {
         if matches!(row.freedom, Freedom::Ball) {

@@ -26,7 +26,7 @@ impl<const N: usize> Dual<N> {
         Dual { value, slopes }
     }
 
-    /// A function of this number: its value and its derivative.
+    /// A function of this number, by its value and its derivative.
     #[inline(always)]
     fn through(self, value: f64, derivative: f64) -> Self {
         Dual { value, slopes: self.slopes.map(|s| s * derivative) }
@@ -175,7 +175,7 @@ mod tests {
         Dual::new(value, [0.0, 1.0])
     }
 
-    /// A function of two numbers that takes every operation.
+    /// A function of two numbers that uses every operation.
     fn all<S: Scalar>(x: S, y: S) -> S {
         let (sine, cosine) = (x * y).sin_cos();
         let ratio = (x - y) / (x + y).sqrt();

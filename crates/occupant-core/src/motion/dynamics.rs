@@ -45,11 +45,12 @@ pub struct Accelerations<S> {
     pub alpha: [V3<S>; MOST_SEGMENTS],
     /// α̈ of the hinges, rad/s².
     pub hinge: [S; MOST_HINGES],
-    /// s̈ of the point masses that slide, m/s².
+    /// s̈ of the sliding point masses, m/s².
     pub slides: [S; MOST_SLIDES],
 }
 
-/// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53). A guided root is at rest.
+/// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53). A guided root is at
+/// rest.
 #[inline(always)]
 pub fn solve<S: Scalar>(
     body: &Skeleton<S>,
@@ -67,12 +68,12 @@ pub fn solve<S: Scalar>(
 pub(crate) struct Sweep<S> {
     closed: Option<closed::Sweep<S>>,
     any: Option<articulated::Sweep<S>>,
-    /// Of the last call of [`Sweep::solve`].
+    /// Results of the last call of [`Sweep::solve`].
     pub accelerations: Accelerations<S>,
 }
 
 impl<S: Scalar> Sweep<S> {
-    /// Nothing solved yet of bodies like these.
+    /// Empty sweeps for these bodies.
     #[inline(always)]
     pub(crate) fn blank(bodies: &Skeleton<S>) -> Self {
         let is_there = |closed: bool| bodies.roots.iter().any(|root| root.is_closed == closed);
@@ -136,7 +137,7 @@ impl<S: Scalar> Accelerations<S> {
         self.joint[child] = self.joint[parent] + self.alpha[parent].cross(c) + w.cross(w.cross(c));
     }
 
-    /// Acceleration of a point mass that slides, and that of the segment where it would be had it not slid.
+    /// Acceleration of a sliding point mass, and that of the segment at its undeflected position.
     #[inline(always)]
     pub(crate) fn sliding(&self, k: &Kinematics<S>, slide: usize, n: usize) -> [V3<S>; 2] {
         let slid = &k.slides[slide];
@@ -144,7 +145,7 @@ impl<S: Scalar> Accelerations<S> {
         [self.at(k, n, slid.arm()) + beside, self.at(k, n, slid.rest)]
     }
 
-    /// Acceleration of what is fixed to segment `n` at `r` from its joint.
+    /// Acceleration of the point fixed to segment `n` at `r` from its joint.
     #[inline(always)]
     pub(crate) fn at(&self, k: &Kinematics<S>, n: usize, r: V3<S>) -> V3<S> {
         let w = k.omega[n];
@@ -157,7 +158,7 @@ impl<S: Scalar> Accelerations<S> {
         self.at(k, n, k.axes[n].out(body.links[n].cg))
     }
 
-    /// The rate of change of `state`, in which force elements do work at the rate `power`, by body.
+    /// Rate of change of `state`, in which force elements do work at the rate `power`, by body.
     #[inline(always)]
     pub fn rate(&self, layout: &Layout, state: &State<S>, power: &[Work<S>]) -> State<S> {
         let mut rate = State::zero(state.shape());
@@ -165,7 +166,7 @@ impl<S: Scalar> Accelerations<S> {
         rate
     }
 
-    /// [`Accelerations::rate`] to a state of the same shape, of which no own number of a force element is touched.
+    /// Writes [`Accelerations::rate`] to a state of the same shape; state variables of force elements are unchanged.
     #[inline(always)]
     pub(crate) fn write_rate(&self, layout: &Layout, state: &State<S>, power: &[Work<S>], rate: &mut State<S>) {
         for (body, (trunk, power)) in layout.trunks().iter().zip(power).enumerate() {

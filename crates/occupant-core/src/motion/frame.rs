@@ -30,11 +30,11 @@ pub struct Moving<S> {
 pub const SPACE: usize = 0;
 /// Index of the first vehicle among the frames.
 pub const VEHICLE: usize = 1;
-/// Most frames: space, vehicles, the ground, panels.
+/// Largest number of frames: space, vehicles, the ground, panels.
 pub const MOST_FRAMES: usize = 10;
 
 impl<S: Copy> Moving<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     #[inline(always)]
     pub(crate) fn zip<A: Copy, T>(&self, other: &Moving<A>, f: &impl Fn(S, A) -> T) -> Moving<T> {
         Moving {
@@ -49,7 +49,7 @@ impl<S: Copy> Moving<S> {
 }
 
 impl<S> Moving<S> {
-    /// f called with every number and the one in the same place of `other`: to hand numbers over.
+    /// Calls f with corresponding numbers of this and `other`, to copy values.
     #[inline]
     pub fn each<A: Copy>(&mut self, other: &Moving<A>, f: &mut impl FnMut(&mut S, A)) {
         let axes = (&mut self.axes, &other.axes);
@@ -71,7 +71,7 @@ impl<S> Moving<S> {
 }
 
 impl Moving<f64> {
-    /// The same as plain data.
+    /// Motion as plain data.
     pub(crate) fn motion(&self) -> FrameMotion {
         FrameMotion {
             origin_m: self.origin.to_vector(),
@@ -85,7 +85,7 @@ impl Moving<f64> {
 }
 
 impl<S: Scalar> Moving<S> {
-    /// Space itself.
+    /// Space.
     #[inline(always)]
     pub fn space() -> Self {
         let o = V3::zero();
@@ -105,7 +105,7 @@ impl<S: Scalar> Moving<S> {
         }
     }
 
-    /// Motion of a frame that moves as `other` says within this one.
+    /// Motion of a frame that moves as `other` relative to this one.
     pub(crate) fn carrying(&self, other: &Moving<S>) -> Self {
         let arm = self.axes.out(other.origin);
         let (turning, drift) = (self.omega.cross(arm), self.axes.out(other.velocity));
@@ -125,7 +125,7 @@ impl<S: Scalar> Moving<S> {
         }
     }
 
-    /// Motion of a frame that is fixed to this one, its origin at `place` and with these axes in it.
+    /// Motion of a frame fixed to this one, with its origin at `place` and these axes in it.
     #[inline(always)]
     pub(crate) fn carried(&self, place: V3<S>, axes: &M3<S>) -> Self {
         let arm = self.axes.out(place);
@@ -139,14 +139,14 @@ impl<S: Scalar> Moving<S> {
         }
     }
 
-    /// Velocity of the point of the frame that is at `point` of space.
+    /// Velocity of the frame's point at `point` in space.
     #[inline(always)]
     pub fn velocity_at(&self, point: V3<S>) -> V3<S> {
         self.velocity + self.omega.cross(point - self.origin)
     }
 }
 
-/// Motions of the frames at one instant, [`SPACE`], [`VEHICLE`] and the others in a setup's order.
+/// Motions of the frames at one instant: [`SPACE`], [`VEHICLE`] and the others in the setup's order.
 #[derive(Clone, Copy, Debug)]
 pub struct Frames<S> {
     /// Time of the scenario, s.
@@ -156,7 +156,7 @@ pub struct Frames<S> {
 }
 
 impl<S: Copy> Frames<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     pub fn zip<A: Copy, T>(&self, other: &Frames<A>, f: &impl Fn(S, A) -> T) -> Frames<T> {
         let moving = std::array::from_fn(|i| self.moving[i].zip(&other.moving[i], f));
         Frames { time: f(self.time, other.time), moving }
@@ -164,7 +164,7 @@ impl<S: Copy> Frames<S> {
 }
 
 impl<S: Scalar> Frames<S> {
-    /// All of them where space is.
+    /// All frames at rest in space.
     pub fn still(time: S) -> Self {
         Frames { time, moving: [Moving::space(); MOST_FRAMES] }
     }

@@ -11,12 +11,12 @@ use crate::motion::skeleton::{Link, Skeleton};
 use crate::motion::state::{Quat, SLIDE_UNITS, State};
 use crate::motion::vector::{M3, V3, v3};
 
-/// A point mass on its slide.
+/// A sliding point mass.
 #[derive(Clone, Copy, Debug)]
 pub struct Slid<S> {
     /// û in space.
     pub axis: V3<S>,
-    /// Its place before it slides, seen from the segment's joint, space axes, m.
+    /// Undeflected position from the segment's joint, space axes, m.
     pub rest: V3<S>,
     /// s, m.
     pub way: S,
@@ -29,7 +29,7 @@ impl<S: Scalar> Slid<S> {
         Slid { axis: V3::zero(), rest: V3::zero(), way: S::zero(), speed: S::zero() }
     }
 
-    /// r, where it is seen from the segment's joint, space axes, m.
+    /// r, position from the segment's joint, space axes, m.
     #[inline(always)]
     pub fn arm(&self) -> V3<S> {
         self.rest + self.axis * self.way
@@ -41,19 +41,19 @@ impl<S: Scalar> Slid<S> {
 pub struct Kinematics<S> {
     /// Axes X, Y, Z of each segment as columns.
     pub axes: [M3<S>; MOST_SEGMENTS],
-    /// Absolute angular velocity.
+    /// Absolute angular velocity, space axes, rad/s.
     pub omega: [V3<S>; MOST_SEGMENTS],
-    /// Proximal joint; that of the root is T1.
+    /// Position of the proximal joint, m; that of the root is T1.
     pub joint: [V3<S>; MOST_SEGMENTS],
-    /// Its velocity.
+    /// Its velocity, m/s.
     pub joint_velocity: [V3<S>; MOST_SEGMENTS],
-    /// Axes of the hinges, in the order of the state's: what turns about one turns against what carries it.
+    /// Axes of the hinges, in the order of the state's hinges: rotations are relative to the carrying segment.
     pub hinge_axis: [V3<S>; MOST_HINGES],
     /// sin α and cos α of the hinges.
     pub(crate) hinge_sin_cos: [(S, S); MOST_HINGES],
-    /// Point masses that slide, in the order of the skeleton's.
+    /// Sliding point masses, in the order of the skeleton's.
     pub slides: [Slid<S>; MOST_SLIDES],
-    /// How many of them the state moves: none of a body that is only being placed.
+    /// Number of them in the state; 0 while a body is being placed.
     pub(crate) sliding: usize,
 }
 
@@ -66,7 +66,7 @@ impl<S: Scalar> Kinematics<S> {
         k
     }
 
-    /// Of nothing yet.
+    /// Empty kinematics.
     #[inline(always)]
     pub(crate) fn blank() -> Self {
         Kinematics {
@@ -81,7 +81,7 @@ impl<S: Scalar> Kinematics<S> {
         }
     }
 
-    /// Becomes the kinematics of `state`; among `frames` a guided root moves as what carries it, not as the state says.
+    /// Sets the kinematics of `state`; among `frames`, a guided root moves with its mount, not by the state.
     #[inline(always)]
     pub(crate) fn follow(&mut self, body: &Skeleton<S>, state: &State<S>, frames: Option<&Frames<S>>) {
         for (i, angle) in state.hinge().iter().enumerate() {
@@ -99,7 +99,7 @@ impl<S: Scalar> Kinematics<S> {
         }
     }
 
-    /// Places the point masses that slide, of which the own numbers of a state begin with s and ṡ of each.
+    /// Positions of the sliding point masses; the elements' state variables begin with s and ṡ of each.
     #[inline(always)]
     fn slide(&mut self, body: &Skeleton<S>, state: &State<S>) {
         let own = state.own();
@@ -114,7 +114,7 @@ impl<S: Scalar> Kinematics<S> {
         }
     }
 
-    /// Places any tree.
+    /// Positions of any tree.
     #[inline(always)]
     fn place(&mut self, body: &Skeleton<S>, state: &State<S>, tree: usize, frames: Option<&Frames<S>>) {
         let mount = body.roots[tree].mount.as_ref();
@@ -142,7 +142,7 @@ impl<S: Scalar> Kinematics<S> {
         }
     }
 
-    /// How a segment moves, as far as contact asks; its origin is its joint.
+    /// Motion of a segment for contacts; its origin is its joint.
     #[inline(always)]
     pub(crate) fn moving(&self, segment: usize) -> Moving<S> {
         Moving {
@@ -188,7 +188,7 @@ impl<S: Scalar> Kinematics<S> {
     }
 }
 
-/// Axes of the frame that a quaternion turns to; it need not be of unit length.
+/// Axes of the orientation of a quaternion, which need not have unit length.
 #[inline(always)]
 pub fn axes<S: Scalar>(q: &Quat<S>) -> M3<S> {
     let one = S::one();

@@ -4,15 +4,15 @@
 
 use crate::body::tree::{JointKind, JointRow, Tree};
 
-/// Most segments of all bodies together.
+/// Largest number of segments of all bodies together.
 pub const MOST_SEGMENTS: usize = 48;
-/// Most axes of hinges of all bodies together.
+/// Largest number of hinge axes of all bodies together.
 pub(crate) const MOST_HINGES: usize = 48;
-/// Most point masses that slide on segments, of all bodies together.
+/// Largest number of sliding point masses of all bodies together.
 pub(crate) const MOST_SLIDES: usize = 16;
-/// Most bodies.
+/// Largest number of bodies.
 pub(crate) const MOST_BODIES: usize = 8;
-/// Most segments, and most axes of hinges, of one tree.
+/// Largest number of segments, and of hinge axes, of one tree.
 pub const MOST_OF_TREE: usize = 20;
 
 /// An axis of a joint's triads.
@@ -26,31 +26,31 @@ pub enum Axis {
     Z,
 }
 
-/// How the joint of a segment lets it move against the segment that carries it.
+/// Freedom of a segment's joint relative to the carrying segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
-    /// It turns any way; for the root: it moves any way.
+    /// Free rotation; for the root: free motion.
     Ball,
-    /// It turns about axes of the triads, each carried round by those before it: none for a fixed joint, one for a pin, two
-    /// for a universal joint.
+    /// Rotation about axes of the triads, each carried by those before: none for a fixed joint, one for a pin, two for
+    /// a universal joint.
     Hinges(&'static [Axis]),
-    /// The root follows a frame that moves on a given path.
+    /// The root follows a frame on a given path.
     Guided,
 }
 
-/// A segment's place in the tree.
+/// Position of a segment in the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
-    /// The segment that carries it; none for the root.
+    /// Carrying segment; none for the root.
     pub parent: Option<usize>,
     pub freedom: Freedom,
-    /// Place of its orientation in a state, or of its first hinge.
+    /// Index of its orientation in a state, or of its first hinge.
     pub slot: usize,
-    /// The body that it belongs to.
+    /// Its body.
     pub body: usize,
 }
 
-/// A tree among others: where its segments begin, and its orientations and hinges in a state.
+/// A tree among others: indices of its first segment, orientation and hinge in a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Trunk {
     /// The root.
@@ -76,26 +76,26 @@ impl Row {
         if let Freedom::Hinges(axes) = self.freedom { axes } else { &[] }
     }
 
-    /// Places of its hinges in a state.
+    /// Indices of its hinges in a state.
     #[inline(always)]
     pub(crate) fn hinges(&self) -> std::ops::Range<usize> {
         self.slot..self.slot + self.axes().len()
     }
 }
 
-/// A tree that the kernel cannot carry.
+/// A tree that the kernel does not support.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("segment {segment}: {found}; expected {expected}")]
 pub struct TreeError {
-    /// Its place among the segments, from 0.
+    /// Index of the segment, from 0.
     pub segment: usize,
     /// Problems of it.
     pub found: &'static str,
-    /// What could be there.
+    /// What is supported.
     pub expected: &'static str,
 }
 
-/// The trees of all bodies as the kernel sees them, one behind the other.
+/// Trees of all bodies for the kernel, one after another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     trunks: Vec<Trunk>,
@@ -105,7 +105,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Of segments by the one that carries each and the freedom of its joint.
+    /// Layout of segments by the carrying segment of each and the freedom of its joint.
     ///
     /// # Errors
     /// A tree that the kernel cannot carry.
@@ -139,7 +139,7 @@ impl Layout {
         Ok(Layout::of_rows(segments.iter().copied()))
     }
 
-    /// Of a body's tree.
+    /// Layout of a body's tree.
     pub fn of(tree: &Tree) -> Self {
         let freedom = |joint: &JointRow| match joint.kind {
             JointKind::Ball => Freedom::Ball,
@@ -175,7 +175,7 @@ impl Layout {
         layout
     }
 
-    /// The trees of all of these, in their order.
+    /// All these trees, in their order.
     pub(crate) fn together<'a>(all: impl IntoIterator<Item = &'a Layout>) -> Self {
         let mut segments = Vec::new();
         for layout in all {
@@ -215,34 +215,34 @@ impl Layout {
         self.rows.len()
     }
 
-    /// Segments whose orientation is a state, in the order of the state's orientations.
+    /// Segments with an orientation in the state, in the order of the state's orientations.
     #[inline(always)]
     pub fn free(&self) -> &[usize] {
         &self.free
     }
 
-    /// Segments on hinges, in the order of the state's hinges; one on two stands twice.
+    /// Segments on hinges, in the order of the state's hinges; a segment on two is listed twice.
     #[inline(always)]
     pub fn hinged(&self) -> &[usize] {
         &self.hinged
     }
 
-    /// Place of a segment's orientation in a state, if it has one.
+    /// Index of a segment's orientation in a state, if it has one.
     pub fn free_slot(&self, segment: usize) -> Option<usize> {
         self.free.iter().position(|&n| n == segment)
     }
 
-    /// Place of a segment's first hinge in a state, if it is on one.
+    /// Index of a segment's first hinge in a state, if it has one.
     pub fn hinge_slot(&self, segment: usize) -> Option<usize> {
         self.hinged.iter().position(|&n| n == segment)
     }
 
-    /// The segment that carries another.
+    /// Carrying segment.
     pub fn parent(&self, segment: usize) -> Option<usize> {
         self.rows[segment].parent
     }
 
-    /// A segment and all that it carries, from the inside outwards.
+    /// A segment and all that are distal to it, in that order.
     pub(crate) fn subtree(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
         let is_beyond = move |n: &usize| {
             let mut inner = *n;

@@ -12,7 +12,7 @@ use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
 
-/// Responses of the body at the start of a run.
+/// Inverse inertias of the body at the start of a run.
 #[derive(Clone, Debug)]
 pub struct Mobility<'a> {
     pub(crate) skeleton: &'a Skeleton<f64>,
@@ -21,7 +21,7 @@ pub struct Mobility<'a> {
 }
 
 impl<'a> Mobility<'a> {
-    /// Of a body that stands as it does at the start.
+    /// Those of a body in its initial position.
     pub(crate) fn new(skeleton: &'a Skeleton<f64>, start: &State<f64>) -> Self {
         let kinematics = Kinematics::new(skeleton, &start.still());
         let unloaded = solve(skeleton, &kinematics, &[0.0; MOST_HINGES], &[Wrench::zero(); MOST_SEGMENTS]);
@@ -54,7 +54,7 @@ impl<'a> Mobility<'a> {
         symmetric(column)
     }
 
-    /// α̈ of a hinge, by its position in the state, for a unit moment in it, 1/(kg·m²).
+    /// α̈ of a hinge, by its index in the state, for a unit moment in it, 1/(kg·m²).
     pub(crate) fn of_hinge(&self, hinge: usize) -> f64 {
         let lower = self.skeleton.layout.hinged()[hinge];
         let upper = self.skeleton.layout.parent(lower).unwrap_or(lower);
@@ -70,7 +70,7 @@ impl<'a> Mobility<'a> {
     }
 }
 
-/// The matrix of a linear response, its rounding made symmetric.
+/// Matrix of a linear response, symmetrized against rounding.
 fn symmetric(column: impl Fn(V3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     let unit = |i: usize| V3::of(&Vector3::ith(i, 1.0));
     let matrix = Matrix3::from_columns(&[column(unit(0)), column(unit(1)), column(unit(2))]);
@@ -82,7 +82,7 @@ pub(crate) fn greatest(matrix: Matrix3<f64>) -> f64 {
     SymmetricEigen::new(matrix).eigenvalues.max()
 }
 
-/// The part of a mobility across `normal`.
+/// Part of a mobility perpendicular to `normal`.
 pub(crate) fn across(mobility: &Matrix3<f64>, normal: &Vector3<f64>) -> Matrix3<f64> {
     let plane = Matrix3::identity() - normal * normal.transpose();
     plane * mobility * plane

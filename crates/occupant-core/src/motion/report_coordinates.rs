@@ -20,16 +20,16 @@ use occupant_units::trig::{atan2, sin_cos};
 /// Number of degrees of freedom.
 pub const DOF: usize = 3 + 3 * FREE.len() + LIMBS.len();
 
-/// Where φ, θ, ψ of each free segment begin in q, in the order of the state's orientations.
+/// Index in q of φ, θ, ψ of each free segment, in the order of the state's orientations.
 pub const EULER_START: [usize; FREE.len()] = places(FREE);
 
-/// Where α of each hinged segment stands in q, in the order of the state's hinges.
+/// Index in q of α of each hinged segment, in the order of the state's hinges.
 pub(crate) const HINGE_PLACE: [usize; LIMBS.len()] = places(LOWER);
 
 /// Hinged segments.
 const LOWER: [usize; LIMBS.len()] = [LIMBS[0].1, LIMBS[1].1, LIMBS[2].1, LIMBS[3].1];
 
-/// Where the coordinates of these segments begin in q: those of T1 come first, then all segments in the tree's order.
+/// First index in q of these segments: T1 first, then all segments in the tree's order.
 const fn places<const N: usize>(segments: [usize; N]) -> [usize; N] {
     let mut places = [3; N];
     let mut i = 0;
@@ -47,7 +47,7 @@ const fn places<const N: usize>(segments: [usize; N]) -> [usize; N] {
     places
 }
 
-/// Below this sin θ the Euler angles count as singular.
+/// sin θ below which the Euler angles count as singular.
 const SINGULAR: f64 = 1e-8;
 
 /// q and q̇: metres and radians, metres and radians per second.
@@ -60,7 +60,7 @@ pub struct ReportCoordinates {
 }
 
 impl ReportCoordinates {
-    /// The state with these coordinates.
+    /// State with these coordinates.
     pub fn to_state(&self) -> State<f64> {
         let (q, rates) = (&self.q, &self.rates);
         let mut state = State::zero(Shape::of(&Layout::of(&TTI12)));
@@ -79,7 +79,7 @@ impl ReportCoordinates {
         state
     }
 
-    /// The coordinates of a state; none of one that has other numbers than the report's body.
+    /// Coordinates of a state; none for a state of another shape than that of the report's body.
     pub fn from_state(state: &State<f64>) -> Option<Self> {
         if state.shape() != Shape::of(&Layout::of(&TTI12)) {
             return None;
@@ -101,7 +101,7 @@ impl ReportCoordinates {
     }
 }
 
-/// T = R_z(φ) R_y(θ) R_z(ψ), the product of the turns (2), (3) and (4).
+/// T = R_z(φ) R_y(θ) R_z(ψ), the product of the rotations (2), (3) and (4).
 pub(crate) fn euler_rotation([phi, theta, psi]: [f64; 3]) -> Matrix3<f64> {
     let ((sf, cf), (st, ct), (sp, cp)) = (sin_cos(phi), sin_cos(theta), sin_cos(psi));
     Matrix3::new(
@@ -117,7 +117,8 @@ pub(crate) fn euler_rotation([phi, theta, psi]: [f64; 3]) -> Matrix3<f64> {
     )
 }
 
-/// ω = φ̇ Z′ + θ̇ Y₁ + ψ̇ Z_n, the sum of three turns (39), in space axes; its components along the segment's are (44).
+/// ω = φ̇ Z′ + θ̇ Y₁ + ψ̇ Z_n, the sum of three angular velocities (39), in space axes; components along the segment's
+/// axes are (44).
 fn angular_velocity([phi, theta, _]: [f64; 3], rates: [f64; 3]) -> Vector3<f64> {
     let ((sf, cf), (st, ct)) = (sin_cos(phi), sin_cos(theta));
     let turned_y = Vector3::new(-sf, cf, 0.0);
@@ -125,7 +126,7 @@ fn angular_velocity([phi, theta, _]: [f64; 3], rates: [f64; 3]) -> Vector3<f64> 
     Vector3::z() * rates[0] + turned_y * rates[1] + z * rates[2]
 }
 
-/// Euler angles and rates of an orientation that turns with `omega` (space axes).
+/// Euler angles and rates of an orientation with the angular velocity `omega` (space axes).
 fn euler(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
     let z = rotation.column(2);
     let sine = (z.x * z.x + z.y * z.y).sqrt();

@@ -46,8 +46,8 @@ pub trait Scalar:
     /// Whether numbers carry derivatives.
     const HAS_SLOPES: bool = false;
 
-    /// Whether numbers fill wide registers, which only functions compiled for them can use: what computes with such numbers has
-    /// to be part of its caller. Of others large parts are functions of their own, of which there is one for all callers.
+    /// Whether numbers fill wide registers, which only functions compiled for them can use: code for such numbers must
+    /// be part of its caller. Otherwise, large parts are functions shared by all callers.
     const IS_WIDE: bool = false;
 
     /// One truth value per lane.
@@ -107,7 +107,7 @@ pub trait Scalar:
         self
     }
 
-    /// x between 0 and 1.
+    /// x limited to 0…1.
     #[inline(always)]
     fn clamp01(self) -> Self {
         self.max(Self::zero()).min(Self::one())

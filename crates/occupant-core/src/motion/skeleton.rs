@@ -13,19 +13,19 @@ use crate::motion::layout::Layout;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, Sym3, V3};
 
-/// What a segment is made of; all of its vectors are in its own axes unless they say otherwise.
+/// Inertia and geometry of a segment; vectors are in its own axes unless noted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     /// M.
     pub mass_kg: f64,
-    /// The centre of gravity, seen from the segment's joint.
+    /// Centre of gravity from the segment's joint.
     pub cg_m: Vector3<f64>,
     /// Tensor of inertia about the centre of gravity.
     pub inertia_kg_m2: Matrix3<f64>,
-    /// The segment's joint, seen from the joint of the segment that carries it, in that one's axes.
+    /// Segment's joint from the joint of the carrying segment, in that segment's axes.
     pub joint_m: Vector3<f64>,
-    /// Axes X, Y, Z of the joint as columns, in axes of the segment that carries this one and in its own: where both agree
-    /// all hinges stand at 0.
+    /// Axes X, Y, Z of the joint as columns, in axes of the carrying segment and of this one: where both agree, all
+    /// hinge angles are 0.
     pub triads: [Matrix3<f64>; 2],
 }
 
@@ -34,73 +34,73 @@ pub struct Part {
 pub struct Link<S> {
     /// M, kg.
     pub mass: S,
-    /// Centre of gravity seen from the proximal joint, m.
+    /// Centre of gravity from the proximal joint, m.
     pub cg: V3<S>,
-    /// The proximal joint seen from that of the segment that carries this one, in that one's axes, m.
+    /// Proximal joint from that of the carrying segment, in that segment's axes, m.
     pub joint: V3<S>,
-    /// Axes of the joint in the segment that carries this one, and in this one.
+    /// Axes of the joint in the carrying segment, and in this one.
     pub triads: [M3<S>; 2],
     /// First moment of mass M·cg, kg·m.
     pub(crate) sigma: V3<S>,
     /// Inertia about the proximal joint, kg·m².
     pub(crate) inertia: Sym3<S>,
-    /// 1/I_y of it.
+    /// 1/I_y of that inertia.
     pub(crate) inverse_iy: S,
     /// Inertia about the centre of gravity, kg·m².
     pub(crate) central: Sym3<S>,
 }
 
-/// A point mass that slides on a segment and is a part of its mass: where the segment has it while it has not slid.
+/// A point mass that slides on a segment and is part of its mass, in its undeflected position.
 #[derive(Clone, Copy, Debug)]
 pub struct Slide<S> {
     /// Index of its segment.
     pub segment: usize,
     /// m, kg.
     pub mass: S,
-    /// Its place before it slides, seen from the segment's proximal joint, segment axes, m.
+    /// Undeflected position from the segment's proximal joint, segment axes, m.
     pub place: V3<S>,
-    /// û, the unit vector along which it slides, segment axes.
+    /// û, unit vector of sliding, segment axes.
     pub axis: V3<S>,
 }
 
-/// Where the frame of a mount carries the root.
+/// Mount of the root on a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Mount<S> {
-    /// Its place among the frames.
+    /// Index of the frame.
     pub frame: usize,
-    /// The root's joint in axes of the frame, m.
+    /// Root's joint in axes of the frame, m.
     pub place: V3<S>,
-    /// The root's axes in those of the frame.
+    /// Root's axes in those of the frame.
     pub axes: M3<S>,
 }
 
 /// Constants of the whole body.
 #[derive(Clone, Debug)]
 pub struct Skeleton<S> {
-    /// How the segments hang on each other.
+    /// Tree structure.
     pub layout: Layout,
     /// By segment.
     pub links: Vec<Link<S>>,
     /// g along −Z′, m/s².
     pub gravity: S,
-    /// Point masses that slide, in the order of the bodies' plates.
+    /// Sliding point masses, in the order of the bodies' plates.
     pub slides: Vec<Slide<S>>,
     /// By body.
     pub(crate) roots: Vec<Root<S>>,
 }
 
-/// How a body is carried and computed.
+/// Mount of a body and its method of computation.
 #[derive(Clone, Debug)]
 pub(crate) struct Root<S> {
-    /// What carries a guided root.
+    /// Mount of a guided root.
     pub mount: Option<Mount<S>>,
     /// Whether the closed forms of the report's body hold.
     pub is_closed: bool,
 }
 
 impl Part {
-    /// One of the parts of which [`closed`] treats: principal axes along its own, centre of gravity and joint on Z of both
-    /// segments, the joint beside it on Y.
+    /// Whether it fits [`closed`]: principal axes along its own, centre of gravity and joint on Z of both segments,
+    /// lateral joint offset along Y.
     fn is_plain(&self) -> bool {
         let inertia = Matrix3::from_diagonal(&self.inertia_kg_m2.diagonal());
         self.cg_m.xy() == Vector3::zeros().xy()
@@ -133,7 +133,7 @@ impl Link<f64> {
 }
 
 impl<S: Copy> Link<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     pub(crate) fn zip<A: Copy, T>(&self, other: &Link<A>, f: &impl Fn(S, A) -> T) -> Link<T> {
         let ([inner, outer], [others_inner, others_outer]) = (&self.triads, &other.triads);
         Link {
@@ -165,7 +165,7 @@ impl<S: Scalar> Mount<S> {
 }
 
 impl<S: Copy> Slide<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     fn zip<A: Copy, T>(&self, other: &Slide<A>, f: &impl Fn(S, A) -> T) -> Slide<T> {
         let (place, axis) = (self.place.zip(&other.place, f), self.axis.zip(&other.axis, f));
         Slide { segment: self.segment, mass: f(self.mass, other.mass), place, axis }
@@ -173,7 +173,7 @@ impl<S: Copy> Slide<S> {
 }
 
 impl<S: Copy> Skeleton<S> {
-    /// Whether another has the same trees, carried by the same frames, and is computed in the same way.
+    /// Whether another has the same trees on the same frames and is computed in the same way.
     pub(crate) fn is_like<A>(&self, other: &Skeleton<A>) -> bool {
         let roots = self.roots.iter().map(Root::structure);
         let slides = self.slides.iter().map(|slide| slide.segment);
@@ -181,7 +181,7 @@ impl<S: Copy> Skeleton<S> {
         same_slides && self.layout == other.layout && roots.eq(other.roots.iter().map(Root::structure))
     }
 
-    /// f applied to every number and the one in the same place of `other`, which [is like](Skeleton::is_like) it.
+    /// f applied to corresponding numbers of this and `other`, which [is like](Skeleton::is_like) it.
     pub(crate) fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
         let mount = |(a, b): (&Mount<S>, &Mount<A>)| Mount {
             frame: a.frame,
@@ -219,7 +219,7 @@ impl Skeleton<f64> {
         if body.places.is_empty() && body.plates.is_empty() { skeleton } else { skeleton.without_closed_forms() }
     }
 
-    /// Constants of a tree of `parts`, in the layout's order. A guided root stays where it is without a [`Mount`].
+    /// Constants of a tree of `parts`, in the layout's order. A guided root is at rest without a [`Mount`].
     pub fn of(layout: Layout, parts: &[Part], gravity_m_s2: f64) -> Self {
         debug_assert_eq!(layout.len(), parts.len());
         let is_closed = closed::holds(&layout) && parts.iter().all(Part::is_plain);
@@ -244,12 +244,12 @@ impl Skeleton<f64> {
         }
     }
 
-    /// The same, carried by a frame.
+    /// The same, mounted on a frame.
     pub fn mounted(self, mount: Mount<f64>) -> Self {
         Skeleton { layout: self.layout.guided(), roots: vec![Root { mount: Some(mount), is_closed: false }], ..self }
     }
 
-    /// The same, computed as any tree is: to the rounding what the closed forms give.
+    /// The same, computed as a general tree: equal to the closed forms within rounding.
     pub fn without_closed_forms(mut self) -> Self {
         self.roots.iter_mut().for_each(|root| root.is_closed = false);
         self
@@ -262,7 +262,7 @@ fn slide(body: &Body, plate: &Plate) -> Slide<f64> {
     Slide { segment: plate.segment.index(), mass: plate.mass_kg, place: V3::of(&place), axis: V3::of(&axis) }
 }
 
-/// The slides of several bodies, one behind the other.
+/// Slides of several bodies, one after another.
 fn slides_together(all: &[&Skeleton<f64>]) -> Vec<Slide<f64>> {
     let (mut slides, mut first) = (Vec::new(), 0);
     for one in all {

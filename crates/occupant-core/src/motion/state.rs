@@ -36,22 +36,22 @@ impl<S: Scalar> Quat<S> {
     }
 }
 
-/// Work sums of the force elements.
+/// Number of work sums of the force elements.
 pub(crate) const WORK_SUMS: usize = 8;
 
-/// Work that concerns a body since the start, for the energy ledger, J.
+/// Work of a body since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work<S> {
-    /// Done on force elements, as each of them says (`forces::SUMS`).
+    /// Work done on force elements, by work sum (`forces::SUMS`).
     pub sums: [S; WORK_SUMS],
-    /// Done on the body by the motion of vehicles and panels through force elements.
+    /// Work of moving vehicles and panels on the body through force elements.
     pub vehicle: S,
-    /// Done on the body by others that touch it; what one gets another gives.
+    /// Work of other bodies in contact on the body; the sum over all bodies is 0.
     pub others: S,
 }
 
 impl<S: Scalar> Work<S> {
-    /// None yet.
+    /// Zero work.
     #[inline(always)]
     pub fn zero() -> Self {
         let o = S::zero();
@@ -59,16 +59,16 @@ impl<S: Scalar> Work<S> {
     }
 }
 
-/// Most numbers that force elements own in a state.
+/// Largest number of state variables that force elements own.
 pub(crate) const MOST_OWN: usize = 24 + 2 * MOST_SLIDES;
-/// What the own numbers of a point mass that slides are 1 of: s, m; ṡ, m/s. With that of ṡ the error control bounds both as
-/// places and speeds of the body.
+/// Scales of the state variables of a sliding point mass: s, m; ṡ, m/s. With that of ṡ, error control bounds both as
+/// positions and velocities of the body.
 pub(crate) const SLIDE_UNITS: [f64; 2] = [1.0, 100.0];
-/// Most numbers of a state.
+/// Largest count of numbers of a state.
 const MOST_NUMBERS: usize = (6 + WORK_SUMS + 2) * MOST_BODIES + 7 * MOST_SEGMENTS + MOST_OWN;
 
-/// How many numbers of each kind a state has. In a row: T1 of each body, orientations (w, x, y, z), hinges; velocities of T1,
-/// angular velocities, hinge rates; work sums of each body; numbers that force elements own.
+/// Counts of the numbers of a state by kind. Order: T1 of each body, orientations (w, x, y, z), hinges; velocities of
+/// T1, angular velocities, hinge rates; work sums of each body; state variables of force elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     /// Bodies.
@@ -77,24 +77,25 @@ pub struct Shape {
     free: usize,
     /// Angles of hinges.
     hinges: usize,
-    /// Numbers that force elements own.
+    /// State variables that force elements own.
     own: usize,
 }
 
 impl Shape {
-    /// That of a body whose force elements own no numbers.
+    /// Shape for a body whose force elements own no state variables.
     pub fn of(layout: &Layout) -> Self {
         let (free, hinges) = (layout.free().len(), layout.hinged().len());
         Shape { bodies: layout.trunks().len(), free, hinges, own: 0 }
     }
 
     #[cfg(test)]
-    /// That of one body with as many orientations and angles of hinges, whose force elements own no numbers.
+    /// Shape for one body with these numbers of orientations and hinge angles, whose force elements own no state
+    /// variables.
     pub(crate) const fn new(free: usize, hinges: usize) -> Self {
         Shape { bodies: 1, free, hinges, own: 0 }
     }
 
-    /// The same with `own` numbers that force elements own.
+    /// The same with `own` state variables of force elements.
     pub(crate) const fn with_own(self, own: usize) -> Self {
         Shape { own, ..self }
     }
@@ -105,19 +106,19 @@ impl Shape {
         0..self.bodies
     }
 
-    /// Work sums of a body; one alone gets no work from others.
+    /// Number of work sums of a body; a single body receives no work from others.
     #[inline(always)]
     fn works(&self) -> usize {
         WORK_SUMS + 1 + usize::from(self.bodies > 1)
     }
 
-    /// Place of an orientation among the numbers.
+    /// Index of an orientation among the numbers.
     #[inline(always)]
     pub(crate) fn turn(&self, slot: usize) -> usize {
         3 * self.bodies + 4 * slot
     }
 
-    /// Place of an angular velocity among the numbers.
+    /// Index of an angular velocity among the numbers.
     #[inline(always)]
     pub(crate) fn spin(&self, slot: usize) -> usize {
         self.places() + 3 * self.bodies + 3 * slot
@@ -128,7 +129,7 @@ impl Shape {
         self.turn(self.free)
     }
 
-    /// How many numbers say where the body is; as many of the next, less one for each orientation, say how it moves.
+    /// Count of position coordinates; that of velocities is less by one for each orientation.
     #[inline(always)]
     pub fn places(&self) -> usize {
         self.hinge() + self.hinges
@@ -139,13 +140,13 @@ impl Shape {
         self.spin(self.free)
     }
 
-    /// Numbers before the work sums.
+    /// Count of the numbers before the work sums.
     #[inline(always)]
     pub fn moving(&self) -> usize {
         self.hinge_rate() + self.hinges
     }
 
-    /// All numbers.
+    /// Count of all numbers.
     #[expect(clippy::len_without_is_empty, reason = "no state is without T1")]
     #[inline(always)]
     pub fn len(&self) -> usize {
@@ -156,31 +157,31 @@ impl Shape {
 /// The integrated state, or its rate of change.
 #[derive(Clone, Copy, Debug)]
 pub struct State<S> {
-    /// Those beyond the shape's are 0.
+    /// Numbers; 0 beyond the shape's.
     numbers: [S; MOST_NUMBERS],
     shape: Shape,
 }
 
 impl<S: Copy> State<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     #[inline(always)]
     pub fn zip<A: Copy, T>(&self, other: &State<A>, f: impl Fn(S, A) -> T) -> State<T> {
         State { numbers: from_fn(|i| f(self.numbers[i], other.numbers[i])), shape: self.shape }
     }
 
-    /// What stands where.
+    /// Counts by kind.
     #[inline(always)]
     pub fn shape(&self) -> Shape {
         self.shape
     }
 
-    /// All numbers in a row; see [`Shape`].
+    /// All numbers in order; see [`Shape`].
     #[inline(always)]
     pub fn numbers(&self) -> &[S] {
         &self.numbers[..self.shape.len()]
     }
 
-    /// All numbers in a row.
+    /// All numbers, mutable.
     #[inline(always)]
     pub fn numbers_mut(&mut self) -> &mut [S] {
         &mut self.numbers[..self.shape.len()]
@@ -197,13 +198,13 @@ impl<S: Copy> State<S> {
         self.numbers[at..at + 3].copy_from_slice(&[v.x, v.y, v.z]);
     }
 
-    /// As many numbers from a place on, of which the bounds are looked at once.
+    /// N numbers from an index on, with one bounds check.
     #[inline(always)]
     pub(crate) fn block<const N: usize>(&self, at: usize) -> &[S; N] {
         self.numbers[at..][..N].try_into().expect("as many")
     }
 
-    /// T1, the place of the root's joint of the first body, space axes, m.
+    /// T1, position of the root joint of the first body, space axes, m.
     #[inline(always)]
     pub fn t1(&self) -> V3<S> {
         self.t1_of(0)
@@ -215,26 +216,26 @@ impl<S: Copy> State<S> {
         self.vector(3 * body)
     }
 
-    /// Gives it another [`State::t1`].
+    /// Sets [`State::t1`].
     #[inline(always)]
     pub fn set_t1(&mut self, place: V3<S>) {
         self.set_t1_of(0, place);
     }
 
-    /// Gives it another [`State::t1_of`].
+    /// Sets [`State::t1_of`].
     #[inline(always)]
     pub(crate) fn set_t1_of(&mut self, body: usize, place: V3<S>) {
         self.set_vector(3 * body, place);
     }
 
-    /// Orientation of a segment by its position in [`Layout::free`].
+    /// Orientation of a segment by its index in [`Layout::free`].
     #[inline(always)]
     pub fn orientation(&self, slot: usize) -> Quat<S> {
         let at = self.shape.turn(slot);
         Quat { w: self.numbers[at], v: self.vector(at + 1) }
     }
 
-    /// Gives it another [`State::orientation`].
+    /// Sets [`State::orientation`].
     #[inline(always)]
     pub fn set_orientation(&mut self, slot: usize, q: Quat<S>) {
         let at = self.shape.turn(slot);
@@ -248,7 +249,7 @@ impl<S: Copy> State<S> {
         &self.numbers[self.shape.hinge()..self.shape.places()]
     }
 
-    /// [`State::hinge`] to be changed.
+    /// Mutable [`State::hinge`].
     #[inline(always)]
     pub fn hinge_mut(&mut self) -> &mut [S] {
         &mut self.numbers[self.shape.hinge()..self.shape.places()]
@@ -266,25 +267,25 @@ impl<S: Copy> State<S> {
         self.vector(self.shape.places() + 3 * body)
     }
 
-    /// Gives it another [`State::velocity`].
+    /// Sets [`State::velocity`].
     #[inline(always)]
     pub fn set_velocity(&mut self, velocity: V3<S>) {
         self.set_velocity_of(0, velocity);
     }
 
-    /// Gives it another [`State::velocity_of`].
+    /// Sets [`State::velocity_of`].
     #[inline(always)]
     pub(crate) fn set_velocity_of(&mut self, body: usize, velocity: V3<S>) {
         self.set_vector(self.shape.places() + 3 * body, velocity);
     }
 
-    /// Absolute angular velocity of a segment by its position in [`Layout::free`], space axes, rad/s.
+    /// Absolute angular velocity of a segment by its index in [`Layout::free`], space axes, rad/s.
     #[inline(always)]
     pub fn omega(&self, slot: usize) -> V3<S> {
         self.vector(self.shape.spin(slot))
     }
 
-    /// Gives it another [`State::omega`].
+    /// Sets [`State::omega`].
     #[inline(always)]
     pub fn set_omega(&mut self, slot: usize, omega: V3<S>) {
         self.set_vector(self.shape.spin(slot), omega);
@@ -296,13 +297,13 @@ impl<S: Copy> State<S> {
         &self.numbers[self.shape.hinge_rate()..self.shape.moving()]
     }
 
-    /// [`State::hinge_rate`] to be changed.
+    /// Mutable [`State::hinge_rate`].
     #[inline(always)]
     pub fn hinge_rate_mut(&mut self) -> &mut [S] {
         &mut self.numbers[self.shape.hinge_rate()..self.shape.moving()]
     }
 
-    /// Gives it other [`State::work`] sums of a body.
+    /// Sets the [`State::work`] sums of a body.
     #[inline(always)]
     pub(crate) fn set_work(&mut self, body: usize, work: &Work<S>) {
         let works = self.shape.works();
@@ -314,19 +315,19 @@ impl<S: Copy> State<S> {
         }
     }
 
-    /// Numbers that force elements own, each scaled by its element to the order of 1.
+    /// State variables that force elements own, each scaled by its element to the order of 1.
     #[inline(always)]
     pub(crate) fn own(&self) -> &[S] {
         &self.numbers[self.shape.len() - self.shape.own..self.shape.len()]
     }
 
-    /// [`State::own`] to be changed.
+    /// Mutable [`State::own`].
     #[inline(always)]
     pub(crate) fn own_mut(&mut self) -> &mut [S] {
         &mut self.numbers[self.shape.len() - self.shape.own..self.shape.len()]
     }
 
-    /// Places of the orientations.
+    /// Indices of the orientations.
     #[inline(always)]
     pub fn turns(&self) -> std::ops::Range<usize> {
         0..self.shape.free
@@ -349,7 +350,7 @@ impl<S: Scalar> State<S> {
         State { numbers: [S::zero(); MOST_NUMBERS], shape }
     }
 
-    /// The same without any motion.
+    /// The same with zero velocities.
     pub fn still(&self) -> Self {
         let mut still = *self;
         still.numbers[self.shape.places()..self.shape.moving()].fill(S::zero());
@@ -364,7 +365,7 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// Becomes `from` + h·rate, of the same shape.
+    /// Sets it to `from` + h·rate, of the same shape.
     #[inline(always)]
     pub(crate) fn advance(&mut self, from: &Self, h: S, rate: &Self) {
         for (x, (from, rate)) in self.numbers_mut().iter_mut().zip(from.numbers().iter().zip(rate.numbers())) {
@@ -372,7 +373,7 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// Becomes the sum of factors times rates, of the same shape.
+    /// Sets it to a linear combination of rates, of the same shape.
     #[inline(always)]
     pub(crate) fn sum<const N: usize>(&mut self, terms: &[(S, &Self); N]) {
         for (i, x) in self.numbers_mut().iter_mut().enumerate() {
@@ -392,7 +393,7 @@ impl<S: Scalar> State<S> {
         sum
     }
 
-    /// Where every component but the work sums is a finite number.
+    /// Lanes in which every component except the work sums is finite.
     #[inline(always)]
     pub(crate) fn finite(&self) -> S::Mask {
         let (limit, mut all) = (S::of(f64::INFINITY), S::truth(true));
@@ -402,7 +403,7 @@ impl<S: Scalar> State<S> {
         all
     }
 
-    /// Brings the quaternions back to unit length, which the integration keeps only to its order.
+    /// Normalizes the quaternions, whose length the integration keeps only to its order.
     #[inline(always)]
     pub(crate) fn normalize(&mut self) {
         for slot in self.turns() {
@@ -415,7 +416,7 @@ impl<S: Scalar> State<S> {
 
 #[cfg(any(target_arch = "x86_64", test))]
 impl<L: Scalar> State<L> {
-    /// Brings the state of lane `i`, of the same shape, to `alone`.
+    /// Copies lane `i`, of the same shape, to `alone`.
     pub(crate) fn lane(&self, i: usize, alone: &mut State<f64>)
     where
         L: Lanes,
@@ -425,7 +426,7 @@ impl<L: Scalar> State<L> {
         }
     }
 
-    /// Gives lane `i` another state, of the same shape.
+    /// Sets lane `i` to a state of the same shape.
     pub(crate) fn set_lane(&mut self, i: usize, alone: &State<f64>)
     where
         L: Lanes,
@@ -435,7 +436,7 @@ impl<L: Scalar> State<L> {
         }
     }
 
-    /// Gives lane `i` that of `other`, of the same shape.
+    /// Copies lane `i` of `other`, of the same shape.
     pub(crate) fn copy_lane(&mut self, i: usize, other: &Self)
     where
         L: Lanes,
@@ -446,7 +447,7 @@ impl<L: Scalar> State<L> {
     }
 }
 
-/// Numbers and shape.
+/// Compares numbers and shape.
 impl PartialEq for State<f64> {
     fn eq(&self, other: &Self) -> bool {
         self.shape == other.shape && self.numbers() == other.numbers()
@@ -454,21 +455,21 @@ impl PartialEq for State<f64> {
 }
 
 impl State<f64> {
-    /// The same with these numbers that force elements own, of which there are at most [`MOST_OWN`].
+    /// The same with these state variables of force elements, at most [`MOST_OWN`].
     pub(crate) fn with_own(mut self, own: &[f64]) -> Self {
         self.shape = self.shape.with_own(own.len());
         self.own_mut().copy_from_slice(own);
         self
     }
 
-    /// The state of this shape with these numbers, if there are as many.
+    /// State of this shape with these numbers, if their count is right.
     pub(crate) fn from_numbers(shape: Shape, numbers: &[f64]) -> Option<Self> {
         let mut state = State::zero(shape);
         (numbers.len() == shape.len()).then(|| state.numbers_mut().copy_from_slice(numbers))?;
         Some(state)
     }
 
-    /// The states of several bodies as one, in their order; their force elements own no numbers.
+    /// States of several bodies as one, in their order; their force elements own no state variables.
     pub(crate) fn together(all: &[State<f64>]) -> Self {
         let sum = |part: fn(&Shape) -> usize| all.iter().map(|state| part(&state.shape)).sum();
         let shape = Shape { bodies: all.len(), free: sum(|s| s.free), hinges: sum(|s| s.hinges), own: 0 };
@@ -489,7 +490,7 @@ impl State<f64> {
         state
     }
 
-    /// True if every component but the work sums is a finite number.
+    /// Whether every component except the work sums is finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.finite()
     }

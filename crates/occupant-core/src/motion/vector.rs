@@ -24,7 +24,7 @@ pub fn v3<S>(x: S, y: S, z: S) -> V3<S> {
 }
 
 impl<S: Copy> V3<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     #[inline(always)]
     pub(crate) fn zip<A: Copy, T>(&self, other: &V3<A>, f: &impl Fn(S, A) -> T) -> V3<T> {
         v3(f(self.x, other.x), f(self.y, other.y), f(self.z, other.z))
@@ -70,7 +70,7 @@ impl<S: Scalar> V3<S> {
 }
 
 impl V3<f64> {
-    /// As the linear algebra library's vector.
+    /// The same as a vector of the linear algebra library.
     pub fn to_vector(self) -> Vector3<f64> {
         Vector3::new(self.x, self.y, self.z)
     }
@@ -123,7 +123,7 @@ pub struct M3<S> {
 }
 
 impl<S: Copy> M3<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     #[inline(always)]
     pub(crate) fn zip<A: Copy, T>(&self, other: &M3<A>, f: &impl Fn(S, A) -> T) -> M3<T> {
         M3 { x: self.x.zip(&other.x, f), y: self.y.zip(&other.y, f), z: self.z.zip(&other.z, f) }
@@ -171,7 +171,7 @@ impl<S: Scalar> M3<S> {
 }
 
 impl M3<f64> {
-    /// As the linear algebra library's matrix.
+    /// The same as a matrix of the linear algebra library.
     pub fn to_matrix(self) -> Matrix3<f64> {
         Matrix3::from_columns(&[self.x.to_vector(), self.y.to_vector(), self.z.to_vector()])
     }
@@ -195,7 +195,7 @@ pub(crate) struct Sym3<S> {
 }
 
 impl<S: Copy> Sym3<S> {
-    /// f applied to every number and the one in the same place of `other`.
+    /// f applied to corresponding numbers of this and `other`.
     #[inline(always)]
     pub(crate) fn zip<A: Copy, T>(&self, other: &Sym3<A>, f: &impl Fn(S, A) -> T) -> Sym3<T> {
         Sym3 {

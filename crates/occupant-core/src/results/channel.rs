@@ -21,18 +21,18 @@ pub struct Channel {
     pub name: String,
     /// SI unit.
     pub unit: Unit,
-    /// What it is along.
+    /// Axes.
     pub axes: Axes,
-    /// What it is, in a sentence without a full stop.
+    /// Meaning, in a sentence without a full stop.
     pub meaning: String,
     pub(super) source: Source,
     pub(super) component: Component,
-    /// [`Model::names_hash`] of the model that it was listed for.
+    /// [`Model::names_hash`] of its model.
     pub(super) of: u64,
 }
 
 impl Channel {
-    /// Its value at an output, in its SI unit; not a number at a sample of a model that has other channels.
+    /// Value at an output, in its SI unit; NaN for a sample of a model with other channels.
     pub fn value(&self, sample: &Sample<'_>) -> f64 {
         if sample.model.names_hash() == self.of { self.component.of(&self.source.value(sample)) } else { f64::NAN }
     }
@@ -54,7 +54,7 @@ impl Component {
         ["x", "y", "z", "resultant"][self as usize]
     }
 
-    /// A resultant has no axes.
+    /// Axes; a resultant has none.
     pub(crate) fn axes(self, of_vector: Axes) -> Axes {
         if self == Component::Resultant { Axes::None } else { of_vector }
     }
@@ -74,7 +74,7 @@ pub fn channels(model: &Model) -> Vec<Channel> {
     Catalogue::of(model).channels
 }
 
-/// The channel of this name.
+/// The channel with this name.
 ///
 /// # Errors
 /// A name that no channel has, with the nearest that one has.
@@ -94,7 +94,7 @@ pub fn matching(model: &Model, pattern: &str) -> Vec<Channel> {
     all
 }
 
-/// Whether `name` is the pieces in order with anything between.
+/// Whether `name` consists of the pieces in order with anything between.
 pub fn matches(name: &str, pieces: &[&str]) -> bool {
     let [first, rest @ ..] = pieces else {
         return false;
@@ -114,8 +114,8 @@ pub fn matches(name: &str, pieces: &[&str]) -> bool {
     left.ends_with(last)
 }
 
-/// What the only star of a pattern stands for in a name, one character or more; empty for a pattern without a star that is
-/// the name.
+/// The part of a name that the only star of a pattern stands for, at least one character; empty for a pattern without a
+/// star that equals the name.
 pub fn star<'n>(pattern: &str, name: &'n str) -> Option<&'n str> {
     match pattern.split_once('*') {
         None => (pattern == name).then_some(""),
@@ -123,10 +123,10 @@ pub fn star<'n>(pattern: &str, name: &'n str) -> Option<&'n str> {
     }
 }
 
-/// Outputs for which there is room from the start; a longer run takes more as it goes.
+/// Number of outputs with space reserved at the start.
 const MOST_ROOM: usize = 1 << 16;
 
-/// A recorder that keeps the values of chosen channels at every output.
+/// Recorder of the values of chosen channels at every output.
 #[derive(Clone, Debug, Default)]
 pub struct Series {
     /// The channels.
@@ -138,7 +138,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// Nothing seen yet.
+    /// Empty series.
     pub fn new(channels: Vec<Channel>) -> Self {
         let values = vec![Vec::new(); channels.len()];
         Series { channels, time_s: Vec::new(), values }

@@ -16,31 +16,32 @@ use crate::results::told::{self, from_indices, to_indices};
 /// A run at one of its outputs.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
-    /// Number of the output, from 0.
+    /// Index of the output, from 0.
     pub index: usize,
     /// Time, s.
     pub time_s: f64,
     /// Integrated state with its work sums: the numbers of a [`State`].
     pub state: Vec<f64>,
-    /// What force elements remember, in the model's order.
+    /// Memory of the force elements, in the model's order.
     pub memory: Memory<f64>,
-    /// First contacts so far, in the order in which they happened.
+    /// First contacts so far, in order of time.
     pub first_touches: Vec<FirstTouch>,
-    /// Largest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none if nobody has looked.
+    /// Largest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none if they were
+    /// not recorded.
     pub peaks: Vec<f64>,
-    /// The step before, of which instruments were read: the number of the next sample, its time, its readings.
+    /// State of the instrument readings at the step before: index of the next sample, its time, its readings.
     pub readings_before: Vec<f64>,
     /// Readings of instruments since the output before: [`Fine`](super::fine::Fine).
     pub readings: Vec<f32>,
-    /// What has happened to force elements since the output before.
+    /// Events of force elements since the output before.
     pub events: Vec<Switched>,
     /// Sums and extremes.
     pub progress: Progress,
-    /// The step of the error control in which the output lies, if it continues beyond it.
+    /// Step of the error control that contains the output, if it continues beyond it.
     pub under_way: Option<StepStart>,
 }
 
-/// Equal to the bit in what steps have seen, where instruments that a body lacks read no numbers.
+/// Equality to the bit, where instruments that a body lacks read NaN.
 impl PartialEq for Checkpoint {
     fn eq(&self, other: &Self) -> bool {
         let same = |a: &[f64], b: &[f64]| a.iter().map(|x| x.to_bits()).eq(b.iter().map(|x| x.to_bits()));
@@ -54,7 +55,7 @@ impl PartialEq for Checkpoint {
     }
 }
 
-/// A step that leads beyond an output, by its start: taking it again gives the same bits.
+/// A step that leads beyond an output, by its start: repeating it gives the same bits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepStart {
     /// Its start, s.
@@ -63,11 +64,11 @@ pub struct StepStart {
     pub end_s: f64,
     /// Numbers of the state at its start.
     pub state: Vec<f64>,
-    /// What force elements remember there, in the model's order.
+    /// Memory of the force elements there, in the model's order.
     pub memory: Memory<f64>,
 }
 
-/// A [`StepStart`] that the run lends.
+/// A [`StepStart`] borrowed from the run.
 #[derive(Clone, Copy, Debug)]
 pub struct StepUnderWay<'a> {
     /// Start of the step, s.
@@ -81,7 +82,7 @@ pub struct StepUnderWay<'a> {
 }
 
 impl StepUnderWay<'_> {
-    /// All of it as plain data.
+    /// Copy as plain data.
     pub(crate) fn to_start(self) -> StepStart {
         let (state, memory) = (self.state.numbers().to_vec(), self.history.memory.clone());
         StepStart { start_s: self.start_s, end_s: self.end_s, state, memory }
@@ -93,15 +94,15 @@ impl StepUnderWay<'_> {
 pub struct Progress {
     /// Work of the integrator.
     pub effort: Effort,
-    /// Step that the error control wants next, s.
+    /// Step that the error control has planned next, s.
     pub wanted_s: f64,
     /// Error of its last accepted step in units of the tolerance.
     pub step_error: f64,
-    /// Energies from which the balance counts.
+    /// Reference energies of the balance.
     pub energy_start: EnergyStart,
     /// Largest energies so far.
     pub greatest: Greatest,
-    /// How still the bodies are of a run that ends when they rest.
+    /// State of rest of the bodies, for a run that ends at rest.
     pub rest: Rest,
 }
 
@@ -131,24 +132,24 @@ impl Progress {
     }
 }
 
-/// A checkpoint that is none of a model's.
+/// A checkpoint that does not belong to a model.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
-    /// Memory that is not that of the model's force elements.
+    /// Memory that does not fit the model's force elements.
     #[error(transparent)]
     Memory(#[from] Misfit),
-    /// A time that is not that of its output, s.
+    /// Time that does not fit its output, s.
     #[error("{}", other_time(*index, *found_s, *expected_s))]
     Time {
-        /// Number of the output.
+        /// Index of the output.
         index: usize,
         /// In the checkpoint.
         found_s: f64,
         /// In the model; none if the run has no such output.
         expected_s: Option<f64>,
     },
-    /// A step under way that does not go from before the output to after it.
+    /// An unfinished step that does not contain the output.
     #[error("the checkpoint of t = {time_s} s has a step under way from {start_s} s to {end_s} s")]
     Step {
         /// Its start, s.
@@ -158,10 +159,10 @@ pub enum CheckpointError {
         /// Time of the output, s.
         time_s: f64,
     },
-    /// Readings, events and largest values of other elements, instruments or parts than the model has.
+    /// Readings, events and largest values of other elements, instruments or parts than the model's.
     #[error("the checkpoint has greatest values, readings or events that are not those of the scenario")]
     Readings,
-    /// A first contact of a sphere or surface that the model does not have.
+    /// First contact of a sphere or surface that the model does not have.
     #[error("the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have")]
     Touch {
         /// Index of the sphere.
@@ -180,7 +181,7 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
     }
 }
 
-/// How `state` is written.
+/// Description of `state` in files.
 const STATE: &str = "in space axes, SI: T1; w, x, y, z of the free segments, the first and those on ball joints (of 12: middle_torso, \
 upper_torso, head, lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); hinges (of 12: left_forearm, right_forearm, \
 left_lower_leg, right_lower_leg); velocity of T1; angular velocities of the free segments; hinge rates; work of contacts, friction, \
@@ -196,14 +197,14 @@ const fn words(number: u32, stem: &'static str, meaning: &'static str) -> FieldW
 }
 
 impl CheckpointError {
-    /// Whether the run of the checkpoint had grown beyond all numbers, and nothing else is wrong.
+    /// Whether the values of the checkpoint have overflowed, and nothing else is wrong.
     pub fn is_blown_up(&self) -> bool {
         matches!(self, CheckpointError::Memory(Misfit::NotFinite))
     }
 }
 
 impl Checkpoint {
-    /// A checkpoint of what `file` gives back; what it does not have stays blank.
+    /// Checkpoint from the fields of `file`; missing fields stay empty.
     pub fn stored(file: &mut dyn Archive) -> Self {
         let mut checkpoint = Checkpoint {
             index: 0,
@@ -222,7 +223,7 @@ impl Checkpoint {
         checkpoint
     }
 
-    /// Exchanges everything with a result file.
+    /// Reads or writes everything in a result file.
     pub fn keep(&mut self, file: &mut dyn Archive) {
         let mut index = self.index as u64;
         file.number(words(1, "time_s", "time of the scenario"), &mut self.time_s);
@@ -236,7 +237,7 @@ impl Checkpoint {
         self.keep_step(file);
     }
 
-    /// What the run has seen at its steps; files of 0.1.0 have none of it.
+    /// Results of the steps; files of 0.1.0 have none.
     fn keep_seen(&mut self, file: &mut dyn Archive) {
         // never written any more
         file.numbers(words(60, "step_peaks", "none: see greatest"), Vec::new());
@@ -311,7 +312,7 @@ impl Checkpoint {
         }
     }
 
-    /// The outcome of a run of `model` that ends here.
+    /// Outcome of a run of `model` that ends here.
     pub fn outcome(&self, model: &Model) -> Outcome {
         Outcome {
             status: Status::Completed,
@@ -322,7 +323,7 @@ impl Checkpoint {
         }
     }
 
-    /// Whether a run of `model` can go on from here.
+    /// Whether a run of `model` can continue from here.
     ///
     /// # Errors
     /// The first thing that does not fit the model.
@@ -330,7 +331,7 @@ impl Checkpoint {
         self.check_at(model, true)
     }
 
-    /// The same; `at_output`: whether it must be one of the model's outputs.
+    /// The same; `at_output`: whether it must be at one of the model's outputs.
     pub(crate) fn check_at(&self, model: &Model, at_output: bool) -> Result<(), CheckpointError> {
         let forces = &model.system().forces;
         self.memory.check_count(forces)?;
@@ -358,7 +359,7 @@ impl Checkpoint {
         self.check_numbers(forces)
     }
 
-    /// The state of `model` with these numbers.
+    /// State of `model` with these numbers.
     ///
     /// # Errors
     /// Another number of them than the model's state has.

@@ -11,7 +11,7 @@ use crate::vehicle::FrameMotion;
 use nalgebra::{Point3, Vector3};
 
 impl Sample<'_> {
-    /// The elements of one kind.
+    /// Elements of one kind.
     fn show<E: Listed, T>(&self, of: impl FnOnce(&Shown<'_, E>) -> T) -> T {
         let (model, at_home) = (self.model, Sample { watcher: None, ..*self });
         of(&Shown {
@@ -32,7 +32,7 @@ impl Sample<'_> {
         }
     }
 
-    /// Lines that pictures draw for force elements.
+    /// Lines of force elements in pictures.
     pub fn lines(&self) -> Vec<Line> {
         let mut list = Lines(self, Vec::new());
         visit_kinds(&mut list);
@@ -49,14 +49,14 @@ impl Sample<'_> {
         list.1
     }
 
-    /// Plane figures that pictures draw for force elements.
+    /// Plane figures of force elements in pictures.
     pub fn sections(&self) -> Vec<Section> {
         let mut list = Sections(self, Vec::new());
         visit_kinds(&mut list);
         list.1
     }
 
-    /// Shows every force on a sphere but those of contacts.
+    /// Shows every force on a sphere except those of contacts.
     pub fn pulls(&self, show: &mut dyn FnMut(&Pull<'_>)) {
         let tree = self.model.body().tree;
         visit_kinds(&mut Pulls(self, &mut |pull: &Pull<'_>| {
@@ -67,7 +67,7 @@ impl Sample<'_> {
         }));
     }
 
-    /// What is told in the axes of a body's home in those of the watcher, where there is one.
+    /// A vector in axes of a body's home, transformed to those of the observer, if there is one.
     fn watched(
         &self,
         of: usize,
@@ -79,7 +79,7 @@ impl Sample<'_> {
         self.watcher.filter(is_there).map_or(told, |watcher| into(watcher, out(&self.homes[of], told)))
     }
 
-    /// What there is to know of force elements at the start of a run.
+    /// Tables of force elements at the start of a run.
     pub(crate) fn start_tables(&self) -> Tables {
         let mut list = StartTables(self, Tables::new());
         visit_kinds(&mut list);
@@ -88,14 +88,14 @@ impl Sample<'_> {
 }
 
 impl Model {
-    /// What kinds of force elements are called that the model can have, and the names of its own elements.
+    /// Names of all kinds of force elements that the model can have, and of its own elements.
     pub(crate) fn element_names(&self) -> Vec<&str> {
         let mut list = AllNames { model: self, list: Vec::new() };
         visit_kinds(&mut list);
         list.list
     }
 
-    /// The elements of the kind of which one is called `of`, in the scenario's order.
+    /// Elements of the kind with the singular name `of`, in the scenario's order.
     pub fn named(&self, of: &str) -> Vec<Named<'_>> {
         let mut list = Names { model: self, of, list: Vec::new() };
         visit_kinds(&mut list);

@@ -26,29 +26,30 @@ pub struct EnergyLedger {
     pub kinetic_relative_j: f64,
     /// M g Z′, zero at Z′ = 0.
     pub gravity_j: f64,
-    /// Stored (recoverable) in force elements or lost by what they remember, in the order of `STORED`.
+    /// Stored (recoverable) in force elements or dissipated according to their memory, in the order of `STORED`.
     pub stored_j: [f64; STORES],
-    /// Dissipated since the start, in the order of `SUMS`: work put in less what is stored.
+    /// Dissipated since the start, in the order of `SUMS`: work done on the elements less stored energy.
     pub lost_j: [f64; WORK_SUMS],
     /// Work done on the occupant by moving vehicles and panels since the start.
     pub vehicle_work_j: f64,
-    /// Work done on it by other bodies since the start; 0 in sum.
+    /// Work done on it by other bodies since the start; the sum over all bodies is 0.
     pub others_work_j: f64,
-    /// Present sum less the sum at the start; 0 for an exact integration.
+    /// Present sum less the sum at the start; 0 for exact integration.
     pub balance_j: f64,
 }
 
-/// Stored energies at the start, from which the balance counts.
+/// Reference energies of the balance, at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyStart {
-    /// Stored in force elements, in the order of `STORED`, J; 0 where no work sum holds it.
+    /// Stored in force elements, in the order of `STORED`, J; 0 for energies outside all work sums.
     pub stored_j: [f64; STORES],
-    /// Sum of kinetic and gravity energy and of what is stored without a work sum, J.
+    /// Sum of kinetic and gravity energy and of stored energies outside all work sums, J.
     pub mechanical_j: f64,
 }
 
 impl EnergyLedger {
-    /// The ledger of a body (index) at one instant; `home` is the motion of its vehicle, `stored_j` what force elements store.
+    /// Ledger of a body (index) at one instant; `home` is the motion of its vehicle, `stored_j` the stored energies of
+    /// force elements.
     pub(crate) fn new(
         (bodies, body): (&Skeleton<f64>, usize),
         k: &Kinematics<f64>,
@@ -78,7 +79,7 @@ impl EnergyLedger {
         ledger
     }
 
-    /// That of several bodies together.
+    /// Ledger of several bodies together.
     pub(crate) fn sum(all: &[EnergyLedger]) -> Self {
         let [first, others @ ..] = all else { return EnergyLedger::default() };
         others.iter().fold(*first, |sum, own| EnergyLedger {
@@ -93,13 +94,13 @@ impl EnergyLedger {
         })
     }
 
-    /// What this instant contributes to the start of a balance.
+    /// Reference energies of this instant.
     pub fn as_start(&self) -> EnergyStart {
         let held = |energy: StoredEnergy| energy.held_by.map_or(0.0, |_| self.stored_j[energy.at]);
         EnergyStart { stored_j: STORED.map(held), mechanical_j: self.mechanical_j() }
     }
 
-    /// Kinetic and gravity energy and what is stored without a work sum.
+    /// Kinetic and gravity energy and stored energies outside all work sums.
     fn mechanical_j(&self) -> f64 {
         // U + V with V = V_p + V_s (49)
         let without = STORED.iter().filter(|energy| energy.held_by.is_none());
@@ -107,30 +108,30 @@ impl EnergyLedger {
     }
 }
 
-/// The largest energies among the outputs of a run so far, J: of all bodies together, and of each where there are several.
+/// Largest energies among the outputs of a run so far, J: of all bodies together, and of each if there are several.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Greatest {
-    /// Of all together.
+    /// Of all bodies together.
     pub all: Extremes,
-    /// By body; of one body alone nothing.
+    /// By body; empty for a single body.
     pub each: [Extremes; MOST_BODIES],
 }
 
-/// The largest energies of some bodies so far, J.
+/// Largest energies of some bodies so far, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extremes {
     /// Kinetic energy relative to the vehicle.
     pub kinetic_j: f64,
-    /// Work of gravity and of force elements since the start, each by its size. The vehicle's is not in it: that depends on
-    /// who watches.
+    /// Work of gravity and of force elements since the start, as sum of magnitudes. The vehicle's work is excluded: it
+    /// depends on the frame of reference.
     pub work_j: f64,
     /// Energy imbalance.
     pub imbalance_j: f64,
 }
 
 impl Greatest {
-    /// How well a run of bodies of `masses_kg` kept its energy: all together, or the one that kept it worst by its own energy,
-    /// which a heavy one beside it would hide.
+    /// Energy error of a run of bodies of `masses_kg`: of all together, or of the body with the largest own error,
+    /// which a heavy one would hide.
     pub(crate) fn check(&self, masses_kg: &[f64]) -> EnergyCheck {
         let all = self.all.check(masses_kg.iter().sum());
         if masses_kg.len() < 2 {
@@ -140,13 +141,13 @@ impl Greatest {
         own.fold(all, |worst, own| if own.balance_error > worst.balance_error { own } else { worst })
     }
 
-    /// Those of each body as plain numbers: kinetic energy, work, imbalance; none of one body alone.
+    /// Values of each body as plain numbers: kinetic energy, work, imbalance; empty for a single body.
     pub(crate) fn numbers(&self) -> Vec<f64> {
         let count = self.each.iter().rposition(|own| *own != Extremes::default()).map_or(0, |last| last + 1);
         self.each[..count].iter().flat_map(|own| [own.kinetic_j, own.work_j, own.imbalance_j]).collect()
     }
 
-    /// Takes over what [`Greatest::numbers`] gave.
+    /// Sets the values from [`Greatest::numbers`].
     pub(crate) fn read(&mut self, numbers: &[f64]) {
         let (rows, _) = numbers.as_chunks();
         for (own, &[kinetic_j, work_j, imbalance_j]) in self.each.iter_mut().zip(rows) {
@@ -156,7 +157,7 @@ impl Greatest {
 }
 
 impl Extremes {
-    /// Looks at an output, where gravity and force elements have done `work_j`.
+    /// Updates the maxima at an output; `work_j` is the work of gravity and force elements.
     pub(crate) fn see(&mut self, energy: &EnergyLedger, work_j: f64) {
         self.kinetic_j = self.kinetic_j.max(energy.kinetic_relative_j);
         self.work_j = self.work_j.max(work_j);
@@ -165,8 +166,8 @@ impl Extremes {
         self.imbalance_j = self.imbalance_j.max(imbalance_j);
     }
 
-    /// The same of one body among others, by the greater of its kinetic energy and its work: what it gets from others is as
-    /// exact as they are.
+    /// The same for one of several bodies, relative to the greater of its kinetic energy and its work: work from other
+    /// bodies is as exact as they are.
     fn check_of_one(&self, mass_kg: f64) -> EnergyCheck {
         let reference_j = self.kinetic_j.max(self.work_j).max(0.5 * mass_kg * REST_M_S * REST_M_S);
         let balance_error = self.imbalance_j / reference_j;
@@ -179,7 +180,7 @@ impl Extremes {
         }
     }
 
-    /// How well a run of a body of `mass_kg` kept its energy.
+    /// Energy error of a run of a body of `mass_kg`.
     fn check(&self, mass_kg: f64) -> EnergyCheck {
         let [rest_j, fastest_j] = [REST_M_S, FASTEST_M_S].map(|speed_m_s| 0.5 * mass_kg * speed_m_s * speed_m_s);
         let is_of_vehicle = self.kinetic_j > fastest_j;
@@ -201,20 +202,20 @@ impl Extremes {
     }
 }
 
-/// How still the bodies of a run are.
+/// State of rest of the bodies of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
     /// Largest kinetic energy in space so far, J.
     pub most_j: f64,
-    /// Since when all of them have had next to none of it, s; 1e30 while they have.
+    /// Time since when all bodies have had almost none of it, s; 1e30 while any has.
     pub since_s: f64,
 }
 
-/// A body with less than this part of the largest kinetic energy of all is still.
+/// Fraction of the largest kinetic energy of all below which a body is at rest.
 const STILL: f64 = 1e-4;
-/// Bodies that have been still for so long rest, s.
+/// Time at rest after which a run counts as at rest, s.
 const REST_S: f64 = 0.2;
-/// A time after every run, s.
+/// A time after the end of every run, s.
 const NEVER: f64 = 1e30;
 
 impl Default for Rest {
@@ -224,7 +225,7 @@ impl Default for Rest {
 }
 
 impl Rest {
-    /// Looks at an output with these kinetic energies in space by body, J.
+    /// Updates it at an output with these kinetic energies in space by body, J.
     pub(crate) fn see(&mut self, time_s: f64, kinetic_j: &[f64]) {
         let total_j: f64 = kinetic_j.iter().sum();
         self.most_j = self.most_j.max(total_j);
@@ -232,34 +233,34 @@ impl Rest {
         self.since_s = if is_still { self.since_s.min(time_s) } else { NEVER };
     }
 
-    /// Whether they rest.
+    /// Whether the bodies are at rest.
     pub(crate) fn is_over(&self, time_s: f64) -> bool {
         time_s - self.since_s >= REST_S
     }
 }
 
-/// A body that is slower all the time sits still.
+/// Speed below which a body counts as sitting still, m/s.
 const REST_M_S: f64 = 0.01;
 
-/// How well a run kept its energy, up to its last output.
+/// Energy error of a run, up to its last output.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnergyCheck {
-    /// Largest imbalance among the outputs as a fraction of the reference; not a number, `null` in JSON, where nothing
-    /// moved or pulled.
+    /// Largest imbalance among the outputs as a fraction of the reference; NaN, `null` in JSON, without any motion or
+    /// force.
     pub balance_error: f64,
-    /// The largest kinetic energy relative to the vehicle; where that takes speeds above 100 m/s, which are the vehicle's, the
-    /// largest work of gravity and force elements; of a body slower than 1 cm/s that of 1 cm/s.
+    /// Text of the reference: the largest kinetic energy relative to the vehicle; above 100 m/s, which is the vehicle's
+    /// speed, the largest work of gravity and force elements; below 1 cm/s, the kinetic energy at 1 cm/s.
     pub reference: &'static str,
-    /// Its size, J.
+    /// Value of the reference, J.
     pub reference_j: f64,
     /// Largest kinetic energy relative to the vehicle, J.
     pub greatest_kinetic_j: f64,
-    /// What that means for the results.
+    /// Verdict on the results.
     pub balance: Balance,
 }
 
 impl EnergyCheck {
-    /// What was found, as text.
+    /// The finding, as text.
     pub fn found(&self) -> String {
         let EnergyCheck { balance_error, reference, greatest_kinetic_j: kinetic_j, .. } = self;
         match Balance::of(*balance_error) {
@@ -275,21 +276,21 @@ impl EnergyCheck {
     }
 }
 
-/// How far the results of a run can be trusted by its energy balance.
+/// Reliability of the results of a run by its energy balance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Balance {
-    /// Off by 1 % at most.
+    /// Error at most 1 %.
     Kept,
-    /// Off by more than 1 %: results are doubtful.
+    /// Error above 1 %: results are doubtful.
     Doubtful,
-    /// Off by more than 10 % or by what is not known, or speeds in the vehicle are above 100 m/s, which contacts do not follow:
-    /// results mean nothing.
+    /// Error above 10 % or unknown, or speeds in the vehicle above 100 m/s, which contacts cannot follow: results are
+    /// invalid.
     Lost,
 }
 
 impl Balance {
-    /// Of a `balance_error`.
+    /// Verdict for a `balance_error`.
     fn of(error: f64) -> Balance {
         match error {
             error if error <= 0.01 => Balance::Kept,
@@ -304,7 +305,7 @@ pub fn kinetic(bodies: &Skeleton<f64>, k: &Kinematics<f64>, frame: &Moving<f64>)
     kinetic_of(bodies, 0..bodies.links.len(), k, frame)
 }
 
-/// That of some segments.
+/// Kinetic energy of some segments.
 fn kinetic_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>, frame: &Moving<f64>) -> f64 {
     let segment = |n: usize| {
         let link = &bodies.links[n];
@@ -316,7 +317,7 @@ fn kinetic_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64
     0.5 * (segments.clone().map(segment).sum::<f64>() + slid(bodies, segments, k, frame))
 }
 
-/// Σ m v·v of plates of some segments, less what it were had they not slid.
+/// Σ m v·v of plates of some segments, less the value without sliding.
 fn slid(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>, frame: &Moving<f64>) -> f64 {
     let slides = bodies.slides[..k.sliding].iter().enumerate().filter(|(_, slide)| segments.contains(&slide.segment));
     let one = |(i, slide): (usize, &Slide<f64>)| {
@@ -342,7 +343,7 @@ pub(crate) fn gravity_by_body(bodies: &Skeleton<f64>, k: &Kinematics<f64>) -> [f
     own_j
 }
 
-/// That of some segments.
+/// Gravity energy of some segments.
 fn gravity_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>) -> f64 {
     let height = |n: usize| bodies.links[n].mass * k.cg(bodies, n).z;
     let slides =

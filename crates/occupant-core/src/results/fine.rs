@@ -11,44 +11,44 @@ use crate::model::setup::Integrator;
 use crate::results::rear;
 use crate::results::sample::Sample;
 
-/// So often readings are taken unless a setup asks otherwise, s: as SAE J211 asks for CFC 1000.
+/// Default interval of readings, s: as SAE J211 requires for CFC 1000.
 pub const READINGS_S: f64 = 1e-4;
 
-/// Numbers of the instruments of one body in a sample: those of a reading without the place of the head; behind them, where any
-/// body has a chest that yields, its deflections; behind them, of a blow from behind, [`REAR_SIGNALS`].
+/// Count of numbers of one body in a sample: a reading without the head's position; then, if any body has a deformable
+/// chest, its deflections; then, in a rear impact, [`REAR_SIGNALS`].
 pub(crate) const SIGNALS: usize = PLACE;
 
-/// Of T1, of the head restraint, of the head's speed and of the pelvis' place.
+/// Signals for rear impact: of T1, of the head restraint, of the head's speed and of the pelvis' position.
 pub(crate) const REAR_SIGNALS: usize = 4;
 
-/// The readings of a run since its last output.
+/// Instrument readings of a run since its last output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fine {
     /// Start of the run, s.
     pub start_s: f64,
     /// Interval, s.
     pub interval_s: f64,
-    /// The bodies (indices) that are read, in the order of their readings in a sample.
+    /// Bodies (indices) with readings, in the order of a sample.
     pub(crate) bodies: Vec<usize>,
-    /// Numbers of each in a sample.
+    /// Count of numbers of each body in a sample.
     each: usize,
-    /// How many of these are of a blow from behind.
+    /// Count of those for rear impact.
     pub(crate) rear: usize,
-    /// Number of the next sample.
+    /// Index of the next sample.
     pub(crate) next: usize,
-    /// The step before: its time and readings.
+    /// Time and readings of the step before.
     before_s: f64,
     before: Vec<f64>,
-    /// The samples since the last output, one behind the other.
+    /// Samples since the last output, one after another.
     samples: Vec<f64>,
-    /// Room for a reading.
+    /// Buffer for a reading.
     now: Vec<f64>,
-    /// Whether outputs are seen, not steps.
+    /// Whether outputs are read, not steps.
     is_of_outputs: bool,
 }
 
 impl Fine {
-    /// None yet of a run of `model`.
+    /// No readings yet, for a run of `model`.
     pub(crate) fn new(model: &Model) -> Self {
         let bodies = model.body().tree.bodies().into_iter().enumerate();
         let is_read =
@@ -77,18 +77,19 @@ impl Fine {
         }
     }
 
-    /// How many samples a whole run of `model` has at most.
+    /// Largest number of samples of a whole run of `model`.
     pub(crate) fn most(model: &Model) -> usize {
         let time = &model.setup().time;
         (((time.end_s - time.start_s) / interval_s(model)) as usize).saturating_add(2)
     }
 
-    /// Whether nobody has read steps: in files before 0.2.
+    /// Whether steps were not read, as in files before 0.2.
     pub(crate) fn is_unknown(&self) -> bool {
         self.next == 0
     }
 
-    /// Looks at the readings of a step and at the forces of head restraints on heads, N, by body; those of the step before where none are told.
+    /// Takes the readings of a step and the forces of head restraints on heads, N, by body; those of the step before if
+    /// none are given.
     pub(crate) fn see(&mut self, time_s: f64, readings: &[Reading<f64>], held: &[f64]) {
         let before = self.before.chunks_exact(self.each.max(1));
         for ((to, before), &of) in self.now.chunks_exact_mut(self.each.max(1)).zip(before).zip(&self.bodies) {
@@ -114,7 +115,7 @@ impl Fine {
         self.before.copy_from_slice(&self.now);
     }
 
-    /// The samples between the step before and the one now.
+    /// Samples between the step before and the present one.
     fn fill(&mut self, time_s: f64) {
         loop {
             let due_s = self.start_s + self.next as f64 * self.interval_s;
@@ -129,19 +130,19 @@ impl Fine {
         }
     }
 
-    /// Forgets the samples, which an output has taken.
+    /// Clears the samples after an output.
     pub(crate) fn clear(&mut self) {
         self.samples.clear();
     }
 
-    /// Becomes what `other` is, of the same run; allocates nothing if there is room.
+    /// Copies `other`, of the same run, without allocation if the space suffices.
     pub(crate) fn take_over(&mut self, other: &Fine) {
         (self.interval_s, self.next, self.before_s) = (other.interval_s, other.next, other.before_s);
         self.before.clone_from(&other.before);
         self.samples.clone_from(&other.samples);
     }
 
-    /// Sees an output as if it were a step, of a run of which nobody has read the steps.
+    /// Takes an output as a step, for a run whose steps were not read.
     pub(crate) fn see_output(&mut self, sample: &Sample<'_>) {
         if self.is_unknown() {
             (self.interval_s, self.start_s) = (sample.model.setup().time.output_s, sample.time_s);
@@ -151,29 +152,29 @@ impl Fine {
         self.see(sample.time_s, sample.readings, &held);
     }
 
-    /// The part of a sample of one body that is of a blow from behind.
+    /// Part of a body's sample for rear impact.
     pub(crate) fn rear_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
         &sample[self.each - self.rear..]
     }
 
-    /// Number and readings of the samples since the last output, of a body among those that are read.
+    /// Index and readings of the samples since the last output, of a body among those read.
     pub(crate) fn of(&self, place: usize) -> impl Iterator<Item = &[f64]> {
         let each = self.each;
         self.samples.chunks_exact(each * self.bodies.len()).map(move |all| &all[each * place..][..each])
     }
 
-    /// Time of the first of the samples since the last output, s.
+    /// Time of the first sample since the last output, s.
     pub(crate) fn first_s(&self) -> f64 {
         let count = self.samples.len() / (self.each * self.bodies.len());
         self.start_s + (self.next - count) as f64 * self.interval_s
     }
 
-    /// The samples since the last output, one behind the other, as a file has them.
+    /// Samples since the last output, one after another, as in a file.
     pub(crate) fn singles(&self) -> Vec<f32> {
         self.samples.iter().map(|x| *x as f32).collect()
     }
 
-    /// The step before as plain numbers: the number of the next sample, its time, its readings.
+    /// State as plain numbers: index of the next sample, its time, its readings.
     pub(crate) fn numbers(&self) -> Vec<f64> {
         if self.is_unknown() {
             return Vec::new();
@@ -181,7 +182,7 @@ impl Fine {
         [self.next as f64, self.before_s].into_iter().chain(self.before.iter().copied()).collect()
     }
 
-    /// From plain numbers, of a run of which `self` knows nothing; false where they are of another.
+    /// Sets the state from plain numbers; false if they are of another run.
     pub(crate) fn read(&mut self, numbers: &[f64], samples: &[f32]) -> bool {
         let [next, before_s, before @ ..] = numbers else { return false };
         let fits = before.len() == self.before.len() && samples.len().is_multiple_of(self.before.len().max(1));
@@ -195,13 +196,13 @@ impl Fine {
     }
 }
 
-/// A number as it is kept.
+/// A number as stored.
 #[inline(always)]
 fn kept(number: f64, is_whole: bool) -> f64 {
     if is_whole { number } else { f64::from(number as f32) }
 }
 
-/// The interval of readings of a run of `model`, s: no shorter than its fixed steps.
+/// Interval of readings of a run of `model`, s: at least its fixed step.
 pub fn interval_s(model: &Model) -> f64 {
     let asked_s = model.setup().output.readings_s.unwrap_or(READINGS_S);
     match model.setup().integrator {

@@ -5,22 +5,22 @@ use crate::results::energy::EnergyCheck;
 use crate::results::recorder::RecorderError;
 use crate::results::sample::Effort;
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Why.
+    /// Reason.
     pub status: Status,
     /// Time reached, s.
     pub time_s: f64,
     /// Work of the integrator.
     pub effort: Effort,
-    /// First touch of each sphere with each surface, in the order in which they happened.
+    /// First contact of each sphere with each surface, in order of time.
     pub first_touches: Vec<FirstTouch>,
-    /// How well it kept its energy.
+    /// Energy error.
     pub energy: EnergyCheck,
 }
 
-/// Why a run ended.
+/// Reason for the end of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Status {
     /// At its end time.
@@ -31,36 +31,36 @@ pub enum Status {
     Failed(StepError),
 }
 
-/// The first accepted step at which a sphere touched a surface.
+/// First accepted step with contact of a sphere and a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstTouch {
     /// Index of the sphere.
     pub sphere: usize,
-    /// Index of the surface, of the solid behind all surfaces, or of another sphere of the body behind all solids.
+    /// Index of the surface, of the solid after all surfaces, or of another sphere of the body after all solids.
     pub surface: usize,
-    /// Time of the step's end, s; the start of the run for what touches at the start.
+    /// Time of the step's end, s; the start of the run for contacts at the start.
     pub time_s: f64,
     /// Speed of the sphere's centre relative to the surface, m/s.
     pub speed_m_s: f64,
-    /// The part of it towards the surface, m/s.
+    /// Its component towards the surface, m/s.
     pub closing_m_s: f64,
 }
 
-/// The integration cannot go on.
+/// Failure of the integration.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// The vehicle is live, and its motion is not known yet.
+    /// The motion of a live vehicle is not known yet.
     #[error(
         "the vehicle motion is known only up to t = {known_s:.6} s, but the run goes to {target_s:.6} s; if you step the run yourself, push a frame first"
     )]
     NotTold {
-        /// Up to when it is known, s.
+        /// End of the known time, s.
         known_s: f64,
-        /// Up to when it was asked for, s.
+        /// Requested time, s.
         target_s: f64,
     },
-    /// A component of the state is no longer a number.
+    /// A component of the state has become NaN or infinite.
     #[error(
         "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer finite; try a smaller step, or softer springs and dampers"
     )]
@@ -69,10 +69,10 @@ pub enum StepError {
         time_s: f64,
         /// Step, s.
         step_s: f64,
-        /// Which component.
+        /// Name of the component.
         component: String,
     },
-    /// Forces could not be worked out.
+    /// Forces could not be computed.
     #[error(
         "at t = {time_s:.6} s, in a step of {step_s:.3e} s, {why}; try a smaller step, or smoother curves of the element"
     )]
@@ -81,7 +81,7 @@ pub enum StepError {
         time_s: f64,
         /// Step, s.
         step_s: f64,
-        /// Of what, and what is left over.
+        /// Element and residual, as text.
         why: String,
     },
     /// The error control asks for a step below the smallest allowed.
@@ -91,7 +91,7 @@ pub enum StepError {
     StepTooSmall {
         /// Time, s.
         time_s: f64,
-        /// Step asked for, s.
+        /// Requested step, s.
         step_s: f64,
         /// Smallest step allowed, s.
         min_step_s: f64,
@@ -104,7 +104,7 @@ pub enum StepError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
-    /// The integration could not continue; recorded outputs stay valid.
+    /// The integration failed; recorded outputs stay valid.
     #[error("{}", failed(.0))]
     Failed(Box<Outcome>),
     /// The recorder failed.
@@ -138,14 +138,14 @@ impl Outcome {
 pub struct RecordingFailed {
     /// Time, s.
     pub time_s: f64,
-    /// What the recorder said.
+    /// Error of the recorder.
     pub source: RecorderError,
 }
 
-/// Why a run could not be resumed, or not recorded.
+/// Reason why a run could not be resumed or recorded.
 #[derive(Debug, thiserror::Error)]
 pub enum ResumeError {
-    /// The checkpoint is none of the model's.
+    /// The checkpoint does not belong to the model.
     #[error("{0}")]
     Refused(#[source] CheckpointError),
     /// The recorder failed.

@@ -3,18 +3,19 @@
 
 use crate::results::summary::Peak;
 
-/// How many peaks are kept of the instruments of one body.
+/// Number of peaks of the instruments of one body.
 pub(crate) const FELT: usize = 16;
-/// Where its excursions begin among them: forward, rearward, right, left, down, up.
+/// Index of the excursions among them: forward, rearward, right, left, down, up.
 pub(crate) const EXCURSIONS: usize = 10;
 
 /// Largest values at the accepted steps of a run so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Peaks {
-    /// What kinds of force elements track, in their order, that of their elements and of their peaks.
+    /// Tracked values of the kinds of force elements, in the order of kinds, elements and peaks.
     pub(crate) elements: Vec<Peak>,
-    /// By body. Resultants that accelerometers of head, chest and pelvis read, m/s²; tension, compression, shear of the neck, N, its
-    /// flexion and extension, N·m; compression of the right and the left femur, N; excursions of the head, m.
+    /// By body: resultants of the accelerometers of head, chest and pelvis, m/s²; tension, compression, shear of the
+    /// neck, N, its flexion and extension, N·m; compression of the right and the left femur, N; excursions of the head,
+    /// m.
     pub(crate) felt: Vec<[Peak; FELT]>,
     /// By part of the body.
     pub(crate) parts: Vec<PartPeak>,
@@ -25,13 +26,13 @@ pub struct Peaks {
 pub(crate) struct PartPeak {
     /// Magnitude of the sum of the forces, N.
     pub force: Peak,
-    /// The surface of the largest normal force then.
+    /// Surface of the largest normal force at that time.
     pub surface: usize,
     /// Δ, m.
     pub penetration: Peak,
     /// Largest Δ over the thickness of a solid.
     pub used: f64,
-    /// Δ in a bar or a rim whose axis a centre went through, m, and which that was.
+    /// Δ in a bar or a rim whose axis was crossed by a sphere's centre, m, and its index.
     pub through: Peak,
     pub bar: usize,
 }
@@ -40,7 +41,7 @@ impl PartPeak {
     const NONE: PartPeak =
         PartPeak { force: Peak::NONE, surface: 0, penetration: Peak::NONE, used: 0.0, through: Peak::NONE, bar: 0 };
 
-    /// Notes a centre that goes through a bar.
+    /// Records a sphere's centre that crosses the axis of a bar.
     pub(crate) fn go_through(&mut self, depth_m: f64, bar: usize, time_s: f64) {
         if self.through.see(depth_m, time_s) {
             self.bar = bar;
@@ -49,7 +50,7 @@ impl PartPeak {
 }
 
 impl Peaks {
-    /// Nothing seen yet of so many numbers, bodies and parts.
+    /// Empty peaks for these numbers of values, bodies and parts.
     pub(crate) fn none(elements: usize, bodies: usize, parts: usize) -> Self {
         Peaks {
             elements: vec![Peak::NONE; elements],
@@ -58,26 +59,26 @@ impl Peaks {
         }
     }
 
-    /// Whether nobody has looked at steps: in files before 0.2.
+    /// Whether steps were not recorded, as in files before 0.2.
     pub(crate) fn are_unknown(&self) -> bool {
         self.felt.is_empty()
     }
 
-    /// Forgets all; allocates nothing.
+    /// Clears everything without allocation.
     pub(crate) fn clear(&mut self) {
         self.elements.fill(Peak::NONE);
         self.felt.fill([Peak::NONE; FELT]);
         self.parts.fill(PartPeak::NONE);
     }
 
-    /// Becomes what `other` is, which is of the same run; allocates nothing if there is room.
+    /// Copies `other`, of the same run, without allocation if the space suffices.
     pub(crate) fn take_over(&mut self, other: &Peaks) {
         self.elements.clone_from(&other.elements);
         self.felt.clone_from(&other.felt);
         self.parts.clone_from(&other.parts);
     }
 
-    /// Looks at what `later` has seen behind all that was seen here.
+    /// Adds the peaks of `later`, recorded after these.
     pub(crate) fn merge(&mut self, later: &Peaks) {
         let felt = self.felt.iter_mut().flatten().zip(later.felt.iter().flatten());
         for (peak, other) in self.elements.iter_mut().zip(&later.elements).chain(felt) {
@@ -105,7 +106,7 @@ impl Peaks {
         peaks.flat_map(|peak| [peak.value, peak.time_s]).chain(parts).collect()
     }
 
-    /// From plain numbers, of a run of which `self` has seen nothing; false where they are of another.
+    /// Sets them from plain numbers; false if they are of another run.
     pub(crate) fn read(&mut self, numbers: &[f64]) -> bool {
         let (peaks, parts) = (2 * (self.elements.len() + FELT * self.felt.len()), 9 * self.parts.len());
         if numbers.len() != peaks + parts {

@@ -16,11 +16,11 @@ use crate::results::sample::Sample;
 pub struct Reaction {
     /// In axes of the distal segment, N.
     pub force_n: Vector3<f64>,
-    /// In axes of the distal segment, N·m. Damper, stop and spring are part of it.
+    /// In axes of the distal segment, N·m, including damper, stop and spring.
     pub moment_n_m: Vector3<f64>,
 }
 
-/// What `joint` carries in `sample`.
+/// Reaction of `joint` in `sample`.
 pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
     Loads::new(sample).reaction(joint)
 }
@@ -37,7 +37,7 @@ impl<'s, 'a> Loads<'s, 'a> {
         Loads { sample, carried: Carried::of_evaluation(skeleton, sample.evaluation) }
     }
 
-    /// What segment `n` needs at its proximal joint, space axes.
+    /// Load of segment `n` at its proximal joint, space axes.
     fn at(&self, n: usize) -> Wrench<f64> {
         self.carried.at(n, self.carried.skeleton.layout.subtree(n))
     }
@@ -47,20 +47,20 @@ impl<'s, 'a> Loads<'s, 'a> {
         self.along(self.sample.model.body().tree[joint].distal, self.on_distal(joint))
     }
 
-    /// What the proximal segment of a joint exerts on the distal one, at the joint, space axes.
+    /// Load of the proximal segment of a joint on the distal one, at the joint, space axes.
     fn on_distal(&self, joint: Joint) -> Wrench<f64> {
         let row = &self.sample.model.body().tree[joint];
         let load = self.at(row.carrying()[1].index());
         if row.is_reversed() { Wrench { force: -load.force, moment: -load.moment } } else { load }
     }
 
-    /// A load along the axes of a segment.
+    /// A load in the axes of a segment.
     fn along(&self, segment: Segment, load: Wrench<f64>) -> Reaction {
         let (force, moment) = load.into_frame(&self.sample.evaluation.kinematics.axes[segment.index()]);
         Reaction { force_n: force.to_vector(), moment_n_m: moment.to_vector() }
     }
 
-    /// [`mount_load`] of a root that needs `load` at its joint.
+    /// [`mount_load`] of a root with the `load` at its joint.
     fn mount(&self, load: impl Fn(usize) -> Wrench<f64>) -> Option<Reaction> {
         let body = self.sample.model.body();
         let mounting = self.sample.model.setup().mounting()?;
@@ -71,15 +71,15 @@ impl<'s, 'a> Loads<'s, 'a> {
     }
 }
 
-/// What a mount exerts on the segment that it holds, at the point that it holds it by, in axes of that segment; none of a body
-/// that is on no mount. The segment's own weight and inertia are part of it.
+/// Load of a mount on its segment at the mounting point, in axes of that segment, including the segment's own weight
+/// and inertia; none for a body without a mount.
 pub(crate) fn mount_load(sample: &Sample<'_>) -> Option<Reaction> {
     let loads = Loads::new(sample);
     loads.mount(|root| loads.at(root))
 }
 
-/// What the segment that a mount holds exerts on all that it carries, at the point that it is held by, in its axes; none of a
-/// body that is on no mount. Its own weight and inertia, and what touches it, are no part of it.
+/// Load of a mounted segment on all that it carries, at the mounting point, in its axes, excluding its own weight and
+/// inertia and its contacts; none for a body without a mount.
 pub(crate) fn carried_by_mount(sample: &Sample<'_>) -> Option<Reaction> {
     let loads = Loads::new(sample);
     let beyond = |root: usize| loads.carried.skeleton.layout.subtree(root).filter(move |n| *n != root);

@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::model::behind::restraints;
 use crate::results::sample::Sample;
 
-/// The forces of head restraints on heads at an output, N, by body; of an older run, of which nobody has looked at steps.
+/// Forces of head restraints on heads at an output, N, by body, for a run whose steps were not recorded.
 pub(crate) fn held(sample: &Sample<'_>) -> Vec<f64> {
     let (restraints, heads) = (restraints(sample.model.setup()), heads(sample.model));
     let mut sums = vec![Vector3::zeros(); sample.model.system().instruments.len()];
@@ -19,7 +19,7 @@ pub(crate) fn held(sample: &Sample<'_>) -> Vec<f64> {
     sums.iter().map(|sum| sum.norm()).collect()
 }
 
-/// By sphere: the body whose head it is of, if it is of one.
+/// By sphere: the body whose head it belongs to, if any.
 pub(crate) fn heads(model: &Model) -> Vec<Option<usize>> {
     let (body, rows) = (model.body(), model.body().tree.bodies());
     let head = |segment: Segment| {

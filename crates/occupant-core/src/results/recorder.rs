@@ -4,21 +4,21 @@ use crate::model::Model;
 use crate::results::outcome::Outcome;
 use crate::results::sample::Sample;
 
-/// Whatever went wrong in a recorder, e.g. a full disk.
+/// Error of a recorder, such as a full disk.
 pub type RecorderError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// Go on.
+    /// Continue.
     Continue,
-    /// End the run here; what was recorded stays.
+    /// End the run here; recorded outputs are kept.
     Stop,
 }
 
-/// Takes what it wants of a run: a file of time histories, a summary, a single peak.
+/// Records parts of a run: a file of time histories, a summary, a single peak.
 pub trait Recorder {
-    /// The run is about to start.
+    /// Called before the start of the run.
     ///
     /// # Errors
     /// An error ends the run.
@@ -26,13 +26,13 @@ pub trait Recorder {
         Ok(())
     }
 
-    /// An output time was reached.
+    /// Called at every output.
     ///
     /// # Errors
     /// An error ends the run.
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError>;
 
-    /// The run has ended, whatever the reason but an error of this recorder.
+    /// Called at the end of the run, except after an error of this recorder.
     ///
     /// # Errors
     /// An error is that of the run.
@@ -80,7 +80,7 @@ impl Recorder for () {
     }
 }
 
-/// A closure that looks at every sample.
+/// A closure that receives every sample.
 #[derive(Debug)]
 pub struct Watch<F>(pub F);
 

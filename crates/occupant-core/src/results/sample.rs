@@ -42,9 +42,9 @@ pub struct Effort {
 /// All results at one output time. Positions are in vehicle axes, motions in segment axes, as the report prints them.
 #[derive(Clone, Copy)]
 pub struct Sample<'a> {
-    /// Time.
+    /// Time, s.
     pub time_s: f64,
-    /// Number of the output, from 0.
+    /// Index of the output, from 0.
     pub index: usize,
     /// The model.
     pub model: &'a Model,
@@ -56,19 +56,19 @@ pub struct Sample<'a> {
     pub frames: &'a Frames<f64>,
     /// Motion of the first vehicle, space axes.
     pub vehicle: &'a FrameMotion,
-    /// Motions of the homes of the bodies.
+    /// Motions of the home frames of the bodies.
     pub homes: &'a [FrameMotion],
     /// Energies by body.
     pub ledgers: &'a [EnergyLedger],
-    /// The body (index) whose instruments and summary are asked for: [`Sample::of_body`].
+    /// Body (index) for instruments and summary: [`Sample::of_body`].
     pub of: usize,
-    /// The frame of reported positions; by default each body's home: [`Sample::seen_by_vehicle`].
+    /// Frame of reported positions; by default each body's home: [`Sample::seen_by_vehicle`].
     pub watcher: Option<&'a FrameMotion>,
-    /// Place and attitude of the vehicle in vehicle-space, as the path gives them.
+    /// Position and attitude of the vehicle in vehicle-space, as given by the path.
     pub vehicle_pose: VehiclePose,
     /// Derived motion, loads and accelerations.
     pub evaluation: &'a Evaluation<f64>,
-    /// What force elements do, each kind in the model's order.
+    /// Actions of the force elements, each kind in the model's order.
     pub actions: &'a Actions<f64>,
     /// Energies.
     pub energy: EnergyLedger,
@@ -76,45 +76,46 @@ pub struct Sample<'a> {
     pub effort: Effort,
     /// Sums and extremes so far, this output included.
     pub progress: Progress,
-    /// First contacts so far, in the order in which they happened.
+    /// First contacts so far, in order of time.
     pub first_touches: &'a [FirstTouch],
-    /// What has switched since the output before, in the order in which it happened, unless that was within a step beyond.
+    /// Elements that have switched since the output before, in order of time, except in a step that leads beyond this
+    /// output.
     pub switched: &'a [Switched],
     /// Largest values at the accepted steps so far.
     pub step_peaks: &'a Peaks,
-    /// What there is to see at this output alone.
+    /// Values at this output only.
     pub now: &'a Peaks,
     /// Readings of the instruments since the output before.
     pub fine: &'a Fine,
-    /// What they read at this output, by body.
+    /// Instrument readings at this output, by body.
     pub(crate) readings: &'a [Reading<f64>],
-    /// The step of the error control in which this output lies, if it continues beyond it.
+    /// Step of the error control that contains this output, if it continues beyond it.
     pub under_way: Option<StepUnderWay<'a>>,
 }
 
-/// Something that has switched in a run.
+/// An element that has switched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Switched {
-    /// Time of the step that ends there, s.
+    /// End of the step in which it switched, s.
     pub time_s: f64,
-    /// What such an element is called.
+    /// Kind of element, in the singular.
     pub of: &'static str,
-    /// The place of its action among those of its kind.
+    /// Index of its action among those of its kind.
     pub element: usize,
-    /// What it did, in words that follow its name.
+    /// Event, as text that follows its name.
     pub what: &'static str,
 }
 
-/// A touching pair for output.
+/// A contact pair at an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Index of the sphere.
     pub sphere: usize,
-    /// Index of the surface, of the solid behind all surfaces, or of another sphere of the body behind all solids.
+    /// Index of the surface, of the solid after all surfaces, or of another sphere of the body after all solids.
     pub surface: usize,
     /// Δ, m.
     pub depth_m: f64,
-    /// How thick a solid is behind the face that the sphere went in by, m; infinite for what has no thickness.
+    /// Thickness of a solid behind the face through which the sphere entered, m; infinite without thickness.
     pub thickness_m: f64,
     /// wF along N̂, N.
     pub normal_force_n: f64,
@@ -122,13 +123,14 @@ pub struct Contact {
     pub force_n: Vector3<f64>,
     /// Friction alone, vehicle axes, N.
     pub friction_n: Vector3<f64>,
-    /// Where all of it but the edge force acts: centre − r N̂, on a solid half-way into the overlap; vehicle axes, m.
+    /// Point of application of all except the edge force: centre − r N̂, or the middle of the overlap on a solid;
+    /// vehicle axes, m.
     pub point_m: Point3<f64>,
-    /// The edge force alone, vehicle axes, N.
+    /// Edge force, vehicle axes, N.
     pub edge_n: Vector3<f64>,
-    /// Where the edge force acts, by choice `point_m` or the centre, vehicle axes, m.
+    /// Point of application of the edge force, by option `point_m` or the centre, vehicle axes, m.
     pub edge_point_m: Point3<f64>,
-    /// Speed of slip, m/s.
+    /// Slip speed, m/s.
     pub slip_m_s: f64,
 }
 
@@ -137,24 +139,24 @@ const NOWHERE: Point3<f64> = Point3::new(f64::NAN, f64::NAN, f64::NAN);
 
 /// For a segment, sphere, joint or frame that the model does not have, every value is NaN.
 impl<'a> Sample<'a> {
-    /// Whether a segment is one of the model's.
+    /// Whether the model has a segment.
     fn has(&self, segment: Segment) -> bool {
         segment.index() < self.model.body().segments.len()
     }
 
-    /// The same with the instruments and the summary of a body (index), the last of them at most.
+    /// The same sample with the instruments and the summary of a body (index), limited to the last body.
     #[must_use]
     pub fn of_body(self, of: usize) -> Self {
         Sample { of: of.min(self.homes.len().saturating_sub(1)), ..self }
     }
 
-    /// The same with all places in the axes of the first vehicle, as pictures show them.
+    /// The same sample with all positions in axes of the first vehicle, as in pictures.
     #[must_use]
     pub fn seen_by_vehicle(self) -> Self {
         Sample { watcher: Some(self.vehicle), ..self }
     }
 
-    /// Whether no output follows: the end of the run's time, or all bodies at rest in a run that ends then.
+    /// Whether this is the last output: at the end time, or with all bodies at rest in a run that ends then.
     pub fn is_last(&self) -> bool {
         self.index + 1 == self.model.output_count() || self.progress.rest.is_over(self.time_s)
     }
@@ -170,13 +172,13 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The frame of positions and forces on a segment.
+    /// Frame of positions and forces on a segment.
     pub(crate) fn seen_from(&self, segment: usize) -> &'a FrameMotion {
         let of = |segment| self.model.body().tree.body_of(self.model.body().tree.segment(segment));
         self.watcher.unwrap_or_else(|| &self.homes[of(segment)])
     }
 
-    /// All that the run carries on from here.
+    /// Checkpoint from which the run can continue.
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
             index: self.index,
@@ -246,7 +248,7 @@ impl<'a> Sample<'a> {
         self.in_segment(segment, self.cg_acceleration_space(segment))
     }
 
-    /// What an accelerometer at the centre of gravity reads: acceleration minus gravity, segment axes, m/s² (item 2).
+    /// Reading of an accelerometer at the centre of gravity: acceleration minus gravity, segment axes, m/s² (item 2).
     pub fn specific_force_m_s2(&self, segment: Segment) -> Vector3<f64> {
         if !self.has(segment) {
             return NOWHERE.coords;
@@ -281,19 +283,19 @@ impl<'a> Sample<'a> {
         k.cg_velocity(&self.model.system().skeleton, segment.index()).to_vector()
     }
 
-    /// Touching pairs, one by one (item 5).
+    /// Contact pairs (item 5).
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + 'a {
         let sample = *self;
         self.touches().map(move |t| sample.contact(&t))
     }
 
-    /// Forces on each sphere; if two spheres of the body touch each other, both are listed.
+    /// Contacts by sphere; a contact of two spheres of the body is listed with both.
     fn touches(&self) -> impl Iterator<Item = Touch<f64>> + use<'a> {
         let contacts = &self.model.system().forces.contacts;
         self.actions.contacts.iter().flat_map(move |touch| contacts.sides(touch))
     }
 
-    /// Sum of contact and friction forces on a sphere, vehicle axes, N; other elements apart (item 5).
+    /// Sum of contact and friction forces on a sphere, vehicle axes, N, without other elements (item 5).
     pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
         if sphere >= self.model.body().spheres.len() {
             return NOWHERE.coords;
@@ -301,8 +303,8 @@ impl<'a> Sample<'a> {
         self.touches().filter(|t| t.sphere == sphere).map(|t| self.contact(&t).force_n).sum()
     }
 
-    /// Sum of contact and friction forces of a surface or solid on all bodies, N: in axes of what carries it, vehicle axes or
-    /// space axes, and on a segment in those of its body's home.
+    /// Sum of contact and friction forces of a surface or solid on all bodies, N: in axes of its carrier (vehicle or
+    /// space), and for a surface on a segment in those of its body's home.
     pub(crate) fn surface_force_n(&self, surface: usize, carrier: Frame) -> Vector3<f64> {
         let force = |t: Touch<f64>| self.axes_of(t.frame).out(t.normal * t.normal_force + t.edge + t.friction);
         let space: Vector3<f64> = self.touches_of(surface).map(|t| force(t).to_vector()).sum();
@@ -327,8 +329,8 @@ impl<'a> Sample<'a> {
         self.touches().filter(|t| t.sphere == sphere).map(|t| t.depth).fold(0.0, f64::max)
     }
 
-    /// Force of all elements but contacts on a sphere, vehicle axes, N: of one kind alone (`belt`, `bag`), or of the element of
-    /// one name (`lap`).
+    /// Force of all elements except contacts on a sphere, vehicle axes, N: of one kind (`belt`, `bag`), or of the
+    /// element with one name (`lap`).
     ///
     /// # Errors
     /// No such sphere; a name that is neither that of a kind nor that of an element of the model.
@@ -344,7 +346,7 @@ impl<'a> Sample<'a> {
         Ok(self.pull_n(sphere, |pull| of.is_none_or(|of| pull.of == of || pull.name == of)))
     }
 
-    /// The sum of those forces on a sphere that are asked for, vehicle axes, N.
+    /// Sum of the selected forces on a sphere, vehicle axes, N.
     pub(crate) fn pull_n(&self, sphere: usize, is_asked: impl Fn(&Pull<'_>) -> bool) -> Vector3<f64> {
         let mut sum_n = Vector3::zeros();
         self.pulls(&mut |pull| {
@@ -355,19 +357,19 @@ impl<'a> Sample<'a> {
         sum_n
     }
 
-    /// Centre of a sphere as surfaces meet it, vehicle axes, m.
+    /// Centre of a sphere for contacts, vehicle axes, m.
     pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
         self.sphere_under_m(sphere, Use::Contact)
     }
 
-    /// Centre of a sphere under a use, vehicle axes, m.
+    /// Centre of a sphere for a use, vehicle axes, m.
     pub(crate) fn sphere_under_m(&self, sphere: usize, by: Use) -> Point3<f64> {
         let Some(site) = self.model.system().spheres.get(sphere) else { return NOWHERE };
         self.place_m(site.segment, site.place(&self.evaluation.kinematics, by).1)
     }
 
-    /// How far parts of the body that give way have carried a sphere's centre as surfaces meet it, segment axes, m; none of a
-    /// sphere that rides on nothing there.
+    /// Displacement of a sphere's centre by plates, for contacts, segment axes, m; none for a sphere that does not move
+    /// with plates.
     pub fn sphere_carried_m(&self, sphere: usize) -> Option<Vector3<f64>> {
         let site = self.model.system().spheres.get(sphere)?;
         let riding = site.riding(Use::Contact).filter(|riding| riding.numbers().next().is_some())?;
@@ -402,7 +404,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The report's generalized coordinates and rates; none of a body that is not the report's 12 segments.
+    /// The report's generalized coordinates and rates; none for a body other than the report's 12 segments.
     pub fn report_coordinates(&self) -> Option<ReportCoordinates> {
         ReportCoordinates::from_state(self.state).filter(|_| *self.model.body().tree == TTI12)
     }
@@ -436,7 +438,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The frame in which contacts of a segment are given.
+    /// Frame in which contacts of a segment are given.
     fn seen_frame(&self, segment: usize) -> usize {
         let tree = self.model.body().tree;
         let member = self.model.setup().members.get(tree.body_of(tree.segment(segment)));

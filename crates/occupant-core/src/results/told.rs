@@ -3,7 +3,7 @@
 use super::sample::Switched;
 use crate::forces::{Forces, Listed, Visitor, visit_kinds};
 
-/// Of each event three numbers: the place of its kind, that of its element, and that of its words.
+/// Three numbers per event: indices of its kind, its element and its text.
 pub(crate) fn to_indices(list: &[Switched]) -> Vec<u32> {
     let kinds = kinds();
     let number = |one: &Switched| {
@@ -14,7 +14,7 @@ pub(crate) fn to_indices(list: &[Switched]) -> Vec<u32> {
     list.iter().filter_map(number).flatten().collect()
 }
 
-/// From such numbers, with times, s; none if they are not of this program.
+/// From these numbers, with times, s; none if they are invalid.
 pub(crate) fn from_indices(times_s: &[f64], indices: &[u32]) -> Option<Vec<Switched>> {
     let kinds = kinds();
     let (rows, rest) = indices.as_chunks();
@@ -27,7 +27,7 @@ pub(crate) fn from_indices(times_s: &[f64], indices: &[u32]) -> Option<Vec<Switc
     rows.iter().zip(times_s).map(event).collect::<Option<_>>().filter(|_| fits)
 }
 
-/// Whether all are of elements that `forces` has.
+/// Whether all belong to elements of `forces`.
 pub(crate) fn fit(list: &[Switched], forces: &Forces<f64>) -> bool {
     let mut counts = Counts(forces, Vec::new());
     visit_kinds(&mut counts);
@@ -43,7 +43,7 @@ impl Visitor for Counts<'_> {
     }
 }
 
-/// What elements of each kind are called, and what can happen to them at steps.
+/// Names of the kinds of elements, and their possible events at steps.
 fn kinds() -> Vec<(&'static str, &'static [&'static str])> {
     let mut words = Words(Vec::new());
     visit_kinds(&mut words);

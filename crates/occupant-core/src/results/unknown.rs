@@ -9,16 +9,16 @@ use placed_text::nearest;
 #[error("no {what} `{asked}`{}", meant(self.nearest.as_deref()))]
 #[non_exhaustive]
 pub struct Unknown {
-    /// What was asked for, in a word: a channel, a sphere.
+    /// Kind of the requested thing: a channel, a sphere.
     pub what: &'static str,
     /// The name or index.
     pub asked: String,
-    /// The nearest name that there is, if one is near.
+    /// Nearest existing name, if one is near.
     pub nearest: Option<String>,
 }
 
 impl Unknown {
-    /// `asked` is none of `names`.
+    /// `asked` is not among `names`.
     pub fn new<'n>(what: &'static str, asked: impl Display, names: impl Iterator<Item = &'n str>) -> Self {
         let asked = asked.to_string();
         let nearest = nearest(&asked, names).map(str::to_owned);

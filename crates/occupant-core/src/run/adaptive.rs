@@ -8,7 +8,7 @@ use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Error
 use crate::results::outcome::StepError;
 use occupant_units::trig;
 
-/// What bounds the steps.
+/// Bounds of the steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Control {
     pub tolerance: Tolerance,
@@ -17,7 +17,7 @@ pub(super) struct Control {
 }
 
 impl Control {
-    /// That of an integrator with error control.
+    /// Control of an integrator with error control.
     pub(super) fn of(integrator: &Integrator) -> Option<Self> {
         let &Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } = integrator else {
             return None;
@@ -26,24 +26,26 @@ impl Control {
     }
 }
 
-/// What the error control remembers from step to step.
+/// Memory of the error control between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Memory {
-    /// Step that it wants next, s.
+    /// Planned length of the next step, s.
     pub wanted_s: f64,
     /// Error of the last accepted step in units of the tolerance.
     pub error: f64,
 }
 
 impl Memory {
-    /// Before any step.
+    /// Memory before any step.
     pub(super) fn new(first_step_s: f64) -> Self {
         Memory { wanted_s: first_step_s, error: 1.0 }
     }
 
-    /// After a step of length `h` was accepted; `is_full`: nothing but the error control bounded it.
+    /// Updates it after an accepted step of length `h`; `is_full`: the step was bounded by the error control only.
     ///
-    /// Proportional–integral control (Gustafsson 1991): a step on the verge of instability is approached, not overshot.
+    ///
+    /// Proportional–integral control (Gustafsson 1991): a step near the stability limit is approached without
+    /// overshoot.
     fn accept(&mut self, h: f64, error: f64, is_full: bool, was_rejected: bool) {
         let error = error.max(1e-6);
         let power = |x: f64, share: f64| trig::pow(x, share / ERROR_ORDER);
@@ -55,7 +57,7 @@ impl Memory {
         self.error = error.max(1e-4);
     }
 
-    /// After a step of length `h` was rejected; a trial that is not a number asks for a tenth.
+    /// Updates it after a rejected step of length `h`; a trial with NaN is reduced to a tenth.
     fn reject(&mut self, h: f64, error: f64) {
         let shrink = if error.is_finite() { (0.9 * trig::pow(error, -1.0 / ERROR_ORDER)).clamp(0.1, 0.9) } else { 0.1 };
         self.wanted_s = h * shrink;
@@ -63,7 +65,7 @@ impl Memory {
 }
 
 impl Course {
-    /// Steps until one reaches `target_s`, none across a break of the path; then shows the state at `target_s`.
+    /// Steps until one reaches `target_s`, none across a discontinuity of the path; then shows the state at `target_s`.
     pub(super) fn advance_adaptive(
         &mut self,
         model: &Model,
@@ -108,7 +110,7 @@ impl Course {
         }
     }
 
-    /// The next trial of a step from where the front stands, as long as the error control and breaks of the path let it be.
+    /// Next trial step from the front, as long as error control and discontinuities of the path permit.
     pub(super) fn propose(&mut self, front: &mut Front, control: &Control) -> Step {
         let start_s = front.step.end_s;
         let mut pending = front.pending.take().unwrap_or_else(|| {
@@ -144,7 +146,7 @@ impl Course {
         }
     }
 
-    /// Makes `step` the trial: what was proposed, or the part of it in which nothing is passed unseen.
+    /// Sets `step` as the trial: the proposal, or the part of it in which no contact is missed.
     pub(super) fn shorten(&self, front: &mut Front, step: Step, control: &Control) -> Result<Step, StepError> {
         let Some(pending) = &mut front.pending else { return Ok(step) };
         pending.step = step;
@@ -155,8 +157,8 @@ impl Course {
         Ok(step)
     }
 
-    /// Whether the trial of these errors, of which the front has all that it needs to know, is accepted: then it is the latest
-    /// step. `jumps`: something has switched by its end.
+    /// Whether the trial with these errors is accepted: then it becomes the latest step. `jumps`: an element has
+    /// switched by its end.
     pub(super) fn judge(
         &mut self,
         model: &Model,
@@ -210,22 +212,23 @@ impl Course {
 pub(super) struct Pending {
     /// The trial.
     step: Step,
-    /// Whether it begins as the end of the step before, at no break.
+    /// Whether it continues from the end of the step before, without a discontinuity.
     pub follows: bool,
-    /// Where the step ends at the latest, s.
+    /// Latest end of the step, s.
     stop_s: f64,
     /// Length of the step before, s.
     last_s: f64,
-    /// How long the error control wanted the trial, s.
+    /// Length planned by the error control, s.
     wanted_s: f64,
-    /// Whether the trial ends at a switch or behind a corner.
+    /// Whether the trial ends at a switch or after a kink.
     is_located: bool,
-    /// Where the next trial is to end for that, s.
+    /// End of the next trial for that purpose, s.
     behind_s: Option<f64>,
     was_rejected: bool,
 }
 
-/// A step that would leave a sliver before `stop_s` takes it along; one that would leave less than itself takes half.
+/// A step that would leave a very short rest before `stop_s` includes it; one that would leave less than its own length
+/// is halved.
 fn end_of_step(start_s: f64, wanted_s: f64, stop_s: f64) -> f64 {
     if start_s + 1.01 * wanted_s >= stop_s {
         stop_s

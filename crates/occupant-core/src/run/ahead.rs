@@ -8,7 +8,7 @@ use crate::motion::lanes::Lanes;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::State;
 
-/// The latest step, at whose end the integration stands, and a trial of the next.
+/// The latest step, at whose end the integration is, and a trial of the next.
 #[derive(Clone, Debug)]
 pub(crate) struct Ahead<S: Scalar> {
     /// States at the start and the end of the latest step.
@@ -22,12 +22,12 @@ pub(crate) struct Ahead<S: Scalar> {
     pub after: History<S>,
     /// History of a trial.
     pub trial: History<S>,
-    /// What a trial writes.
+    /// Results of a trial.
     pub room: Room<S>,
 }
 
 impl<S: Scalar> Ahead<S> {
-    /// Standing at `state`, before any step.
+    /// At `state`, before any step.
     pub(crate) fn new(state: &State<S>, history: &History<S>) -> Self {
         let (at, zero) = (|| Box::new(*state), || Box::new(State::zero(state.shape())));
         Ahead {
@@ -55,7 +55,7 @@ impl<S: Scalar> Ahead<S> {
 
 #[cfg(any(target_arch = "x86_64", test))]
 impl<L: Lanes> Ahead<L> {
-    /// Lane `i` stands where a run alone does.
+    /// Sets lane `i` to the state of a single run.
     pub(crate) fn begin(&mut self, i: usize, alone: &Ahead<f64>) {
         for state in [&mut self.from, &mut self.to] {
             state.set_lane(i, &alone.to);
@@ -68,21 +68,21 @@ impl<L: Lanes> Ahead<L> {
         self.after.look_again_in(L::zero().with_lane(i, 1.0).gt(L::zero()));
     }
 
-    /// Nothing moves in lane `i`.
+    /// Stops all motion in lane `i`.
     pub(crate) fn rest(&mut self, i: usize) {
         for rate in &mut self.rates {
             rate.numbers_mut().iter_mut().for_each(|lanes| lanes.set_lane(i, 0.0));
         }
     }
 
-    /// Lane `i` takes over what a look has found; hints it has.
+    /// Copies the results of a look to lane `i`, except the hints.
     pub(crate) fn take_look(&mut self, i: usize) {
         self.rates[1].copy_lane(i, &self.room.rate);
         let copy = &mut |lanes: &mut L, from: &mut L| lanes.set_lane(i, from.lane(i));
         self.after.memory.each(&mut self.trial.memory, copy);
     }
 
-    /// Lane `i` stands where it did before a shift, but for hints.
+    /// Restores lane `i` to the time before a shift, except the hints.
     pub(crate) fn shift_back(&mut self, i: usize) {
         self.to.copy_lane(i, &self.from);
         self.from.copy_lane(i, &self.room.end);

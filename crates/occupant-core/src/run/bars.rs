@@ -5,27 +5,27 @@ use super::corner::Touching;
 use crate::model::Model;
 use crate::motion::vector::V3;
 
-/// What spheres touched of bars and rims.
+/// Contacts of spheres with bars and rims.
 #[derive(Clone)]
 pub(super) struct Bars {
-    /// By what pairs remember; empty where there is no bar.
+    /// By index in the memory of pairs; empty without bars.
     last: Vec<Option<Touched>>,
-    /// How many steps were looked at.
+    /// Number of steps so far.
     steps: u64,
 }
 
-/// A bar or a rim when a sphere touched it last.
+/// The last contact of a sphere with a bar or a rim.
 #[derive(Clone, Copy)]
 struct Touched {
-    /// Of a centre within it the one by which it came in.
+    /// Normal; for a centre inside, that at its entry.
     normal: V3<f64>,
-    /// Whether the sphere's centre was within it.
+    /// Whether the sphere's centre was inside.
     inside: bool,
     step: u64,
 }
 
 impl Bars {
-    /// Of a run of `model` that has seen nothing.
+    /// Empty record for a run of `model`.
     pub(super) fn new(model: &Model) -> Self {
         let shapes = &model.system().forces.contacts.solids.shapes;
         let count =
@@ -33,7 +33,7 @@ impl Bars {
         Bars { last: vec![None; count], steps: 0 }
     }
 
-    /// Looks at what touches at an accepted step; `tell` is told sphere, depth (m) and surface of each passage.
+    /// Takes the contacts of an accepted step; `tell` receives sphere, penetration (m) and surface of each passage.
     pub(super) fn see(&mut self, model: &Model, met: &[Touching], mut tell: impl FnMut(usize, f64, usize)) {
         self.steps += 1;
         if self.last.is_empty() {

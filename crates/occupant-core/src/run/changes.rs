@@ -7,24 +7,24 @@ use crate::forces::{Listed, Visitor, visit_kinds};
 use crate::model::Model;
 use crate::results::sample::Switched;
 
-/// Compares the numbers of each accepted step with those of the step before.
+/// Compares the tracked values of each accepted step with those of the step before.
 #[derive(Clone)]
 pub(super) struct Changes {
     kinds: Vec<OfKind>,
-    /// Of the step before; none before the first.
+    /// Values of the step before; empty before the first.
     before: Vec<f64>,
-    /// What has happened since it was last emptied.
+    /// Events since it was last emptied.
     pub told: Vec<Switched>,
 }
 
-/// Tells what happened between the numbers of two steps.
+/// Reports events between the values of two steps.
 type Told = fn(&[f64], &[f64], &mut dyn FnMut(&'static str));
 
-/// The elements of a kind that tells what happens to them.
+/// Elements of a kind that reports events.
 #[derive(Clone, Copy)]
 struct OfKind {
     of: &'static str,
-    /// Place of their first number, how many each tracks, and how many elements there are.
+    /// Index of their first value, number of values of each, and number of elements.
     first: usize,
     each: usize,
     count: usize,
@@ -32,7 +32,7 @@ struct OfKind {
 }
 
 impl Changes {
-    /// Of a run of `model` that has seen nothing.
+    /// Empty record for a run of `model`.
     pub(super) fn new(model: &Model) -> Self {
         let mut find = Find { model, first: 0, kinds: Vec::new() };
         visit_kinds(&mut find);
@@ -40,7 +40,7 @@ impl Changes {
         Changes { kinds: find.kinds, before: Vec::with_capacity(numbers), told: Vec::with_capacity(ROOM) }
     }
 
-    /// Looks at the numbers of an accepted step; the same twice make no difference.
+    /// Takes the values of an accepted step; repeating the same values has no effect.
     pub(super) fn see(&mut self, time_s: f64, numbers: &[f64]) {
         for kind in &self.kinds {
             let range = kind.first..kind.first + kind.count * kind.each;

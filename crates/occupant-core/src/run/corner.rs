@@ -11,16 +11,16 @@ use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::Tolerance;
 use crate::run::observers::Meeting;
 
-/// A corner that changes a speed by less than this part of the tolerance is passed over (measured in `docs/accuracy.md`).
+/// Fraction of the tolerance below which the change of velocity by a kink is ignored (measured in `docs/accuracy.md`).
 const LEAST_SHARE: f64 = 0.03;
-/// Corners nearer to the ends of a step than this part of it are at its ends.
+/// Fraction of a step within which kinks count as at its ends.
 const MARGIN: f64 = 0.02;
-/// How far behind a corner the step ends, as a part of the trial's length.
+/// Distance of the step's end behind a kink, as a fraction of the trial's length.
 const BEHIND: f64 = 0.01;
-/// The error in speed of a step across the beginning of a force is about this part of the force's impulse.
+/// Error in velocity of a step across the beginning of a force, as a fraction of the force's impulse.
 const BEGINNING: f64 = 0.1;
 
-/// A pair in touch.
+/// A contact pair.
 #[derive(Clone, Copy)]
 pub(super) struct Touching {
     pub meeting: Meeting,
@@ -33,7 +33,7 @@ impl From<&Touch<f64>> for Touching {
     }
 }
 
-/// A trial step with what touches at its ends.
+/// A trial step with the contacts at its ends.
 pub(super) struct Crossing<'a> {
     pub model: &'a Model,
     pub step: Step,
@@ -45,7 +45,7 @@ pub(super) struct Crossing<'a> {
 }
 
 impl Crossing<'_> {
-    /// Where to end the step instead: just behind its first corner that matters, s.
+    /// End of the step just behind its first relevant kink, s.
     pub(super) fn end_behind_corner(&self) -> Option<f64> {
         let begun = self.at_end.iter().filter_map(|end| {
             let start = partner(self.at_start, end);
@@ -73,8 +73,8 @@ impl Crossing<'_> {
         self.if_it_matters(left_s / h, BEGINNING * start.meeting.normal_force_n * left_s, start)
     }
 
-    /// A contact that is deepest within the step: what comes behind still follows the loading line, as Δ_m is committed at
-    /// the ends of steps.
+    /// A contact with its largest penetration within the step: beyond it, the step still follows the loading curve,
+    /// since Δ_m is updated at the ends of steps.
     fn turn(&self, start: &Touching, end: &Touching) -> Option<f64> {
         let h = self.step.length_s();
         let (v0, v1) = (start.meeting.closing_m_s, end.meeting.closing_m_s);
@@ -99,7 +99,7 @@ impl Crossing<'_> {
         self.if_it_matters(s, impulse, end)
     }
 
-    /// The corner at `share` of the step, if an error of `impulse` (N·s) there matters.
+    /// The kink at `share` of the step, if an error of `impulse` (N·s) there is relevant.
     fn if_it_matters(&self, share: f64, impulse: f64, touching: &Touching) -> Option<f64> {
         let system = self.model.system();
         let segment = system.spheres[touching.meeting.sphere].segment;
@@ -111,7 +111,7 @@ impl Crossing<'_> {
     }
 }
 
-/// The same pair in `list`, which is in the order of the pairs as all evaluations see them.
+/// The same pair in `list`, which is in the order of the pairs in all evaluations.
 fn partner<'a>(list: &'a [Touching], of: &Touching) -> Option<&'a Touching> {
     debug_assert!(list.is_sorted_by_key(|touching| touching.meeting.pair));
     let at = list.binary_search_by_key(&of.meeting.pair, |touching| touching.meeting.pair).ok()?;

@@ -25,10 +25,10 @@ use crate::run::corner::Touching;
 use crate::run::observers::{Felt, Met, Seen, none_of};
 use crate::vehicle::PathCursor;
 
-/// A run in progress, beside its model.
+/// A run in progress, besides its model.
 #[derive(Clone)]
 pub(crate) struct Course {
-    /// Number of the next output.
+    /// Index of the next output.
     pub(super) index: usize,
     /// Time reached, s.
     pub time_s: f64,
@@ -38,15 +38,15 @@ pub(crate) struct Course {
     pub history: History<f64>,
     pub(crate) cursor: PathCursor,
     pub(super) seen: Seen,
-    /// What touches, and what is felt, at the start of a step of fixed length or at an output.
+    /// Contacts and readings at the start of a step of fixed length or at an output.
     pub(super) met: Vec<Touching>,
     pub(super) felt: Felt,
-    /// What there is to see at the latest output.
+    /// Values at the latest output.
     pub(super) now: Peaks,
     pub(crate) effort: Effort,
-    /// The integration under error control; none at a fixed step.
+    /// Integration under error control; none with a fixed step.
     pub(super) front: Option<Box<Front>>,
-    /// At a fixed step, where the latest began, if anything of the model can switch.
+    /// With a fixed step, the start of the latest, if any element of the model can switch.
     pub(super) rear: Option<Box<Rear>>,
     pub(super) control: Wanted,
     /// By body, from the first output on.
@@ -59,11 +59,11 @@ pub(crate) struct Course {
     /// By body.
     pub(super) masses_kg: Vec<f64>,
     pub(super) actions: Actions<f64>,
-    /// What the evaluation of an output writes on its way.
+    /// Results of the evaluation of an output.
     scratch: Box<Scratch<f64>>,
-    /// Times at which the motion of the vehicle or an activation jumps, s.
+    /// Times of discontinuities in the motion of the vehicle or in an activation, s.
     pub breaks_s: Vec<f64>,
-    /// The accepted steps since it was last emptied, where somebody wants to follow them.
+    /// Accepted steps since it was last emptied, if requested.
     pub taken: Option<Vec<Step>>,
     pub(super) switches: Switches,
 }
@@ -147,12 +147,12 @@ impl Course {
         Ok(run)
     }
 
-    /// Tells `recorder` that the run begins.
+    /// Informs `recorder` of the start of the run.
     pub(crate) fn begin(&self, model: &Model, recorder: &mut dyn Recorder) -> Result<(), RecordingFailed> {
         recorder.begin(model).map_err(|e| self.unrecorded(e))
     }
 
-    /// Evaluates the present state with all details and hands it to the recorder as the next output.
+    /// Evaluates the present state completely and records it as the next output.
     pub fn record(&mut self, model: &Model, recorder: &mut dyn Recorder) -> Result<Flow, RecordingFailed> {
         let t = self.time_s;
         let path = &model.setup().path;
@@ -249,8 +249,8 @@ impl Course {
         recorded.map_err(|e| self.unrecorded(e))
     }
 
-    /// Shows the present state to `watch` without counting it as an output: everything is afterwards as it was, but that force
-    /// elements have taken over the place.
+    /// Shows the present state to `watch` without counting it as an output: nothing changes except the memory of force
+    /// elements, which is updated.
     pub(super) fn look(&mut self, model: &Model, watch: &mut dyn Recorder) -> Result<(), RecordingFailed> {
         let (index, fine) = (self.index, self.seen.fine.clone());
         let (told, greatest, rest) = (self.switches.told.clone(), self.greatest, self.rest);
@@ -260,7 +260,7 @@ impl Course {
         seen.map(|_| ())
     }
 
-    /// One at its start, from whose energies balances count whenever it is looked at.
+    /// Reference energies of a run at its start, used whenever it is looked at.
     pub(super) fn looked_at(model: &Model) -> Self {
         let mut course = Course::new(model);
         // what only watches never fails
@@ -268,13 +268,13 @@ impl Course {
         course
     }
 
-    /// Forgets what was read and what has switched since the latest output.
+    /// Clears readings and switches since the latest output.
     pub(super) fn forget_readings(&mut self) {
         self.seen.fine.clear();
         self.switches.told.clear();
     }
 
-    /// Lets steps end where a frame does of a vehicle that is told on the way.
+    /// Makes steps end at the frames of a live vehicle.
     pub(super) fn mark_frame(&mut self, from_s: f64, until_s: f64) {
         self.breaks_s.retain(|break_s| *break_s >= self.time_s - 1.0);
         for time_s in [from_s, until_s] {
@@ -285,7 +285,7 @@ impl Course {
         }
     }
 
-    /// Everything at the present state, which the history takes over.
+    /// Complete evaluation of the present state, which updates the history.
     fn evaluate(&mut self, model: &Model, frames: &Frames<f64>) -> Evaluation<f64> {
         loop {
             if let Some(rear) = &mut self.rear {
@@ -306,12 +306,12 @@ impl Course {
         }
     }
 
-    /// Time of the next output, s; none after the last, and none once all bodies rest of a run that ends then.
+    /// Time of the next output, s; none after the last, and none once all bodies are at rest in a run that ends then.
     pub fn next_output_s(&self, model: &Model) -> Option<f64> {
         model.output_time_s(self.index).filter(|_| !self.rest.is_over(self.time_s))
     }
 
-    /// Up to when the motion of the vehicle is known, s.
+    /// End of the known vehicle motion, s.
     pub(super) fn known_s(&self, model: &Model) -> f64 {
         if !model.setup().path.is_live() {
             return f64::INFINITY;
@@ -335,7 +335,7 @@ impl Course {
         }
     }
 
-    /// Takes over the state after a step, if it is one of numbers.
+    /// Takes the state after a step, if it is finite.
     pub(crate) fn accept(&mut self, model: &Model, next: State<f64>, step: Step) -> Result<(), StepError> {
         if !next.is_finite() {
             return Err(broken(model, &self.history.memory, step, &next));
@@ -345,7 +345,7 @@ impl Course {
         Ok(())
     }
 
-    /// Counts an accepted step whose state is kept elsewhere.
+    /// Counts an accepted step whose state is stored elsewhere.
     pub(crate) fn accept_time(&mut self, step: Step) {
         self.time_s = step.end_s;
         self.count(step);
@@ -360,7 +360,7 @@ impl Course {
         self.effort.step_s = step.length_s();
     }
 
-    /// Ends the run and tells `recorder` how.
+    /// Ends the run and informs `recorder`.
     pub fn end(self, status: Status, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
         let time_s = self.time_s;
         let outcome = self.outcome(status);
@@ -386,7 +386,7 @@ impl Course {
     }
 }
 
-/// Energies at the start of a run from which the balances of several bodies count.
+/// Reference energies of the balances of several bodies, at the start of a run.
 fn starts_of(model: &Model) -> Vec<EnergyStart> {
     let mut run = Course::new(model);
     // what only watches never fails
@@ -401,7 +401,7 @@ fn first_step(integrator: &Integrator) -> f64 {
     }
 }
 
-/// Why a step did not lead to numbers.
+/// Reason why a step did not give finite values.
 pub(crate) fn broken(model: &Model, memory: &Memory<f64>, step: Step, next: &State<f64>) -> StepError {
     let (time_s, step_s) = (step.start_s, step.length_s());
     match memory.failure(&model.setup().forces(&[]), &model.system().forces) {

@@ -49,7 +49,7 @@ pub struct Run<'m> {
     pub(super) is_recorded: bool,
 }
 
-/// A model that is lent, or shared.
+/// A borrowed or a shared model.
 #[derive(Clone)]
 pub(super) enum Held<'m> {
     Lent(&'m Model),
@@ -79,7 +79,7 @@ impl<'m> Run<'m> {
         Run { model: Held::Lent(model), course: Course::looked_at(model), is_recorded: false }
     }
 
-    /// The same for a shared model, which it keeps alive: it has no borrowed lifetime.
+    /// The same for a shared model, kept alive by the run: it has no borrowed lifetime.
     pub fn shared(model: Arc<Model>) -> Run<'static> {
         Run { course: Course::looked_at(&model), model: Held::Shared(model), is_recorded: false }
     }
@@ -94,7 +94,7 @@ impl<'m> Run<'m> {
         Ok(Run { model: Held::Lent(model), course, is_recorded: false })
     }
 
-    /// What is run.
+    /// The model.
     pub fn model(&self) -> &Model {
         &self.model
     }
@@ -119,12 +119,12 @@ impl<'m> Run<'m> {
         &self.course.history
     }
 
-    /// Times at which the motion of the vehicle or an activation jumps, s.
+    /// Times of discontinuities in the motion of the vehicle or in an activation, s.
     pub fn breaks_s(&self) -> &[f64] {
         &self.course.breaks_s
     }
 
-    /// The model's next output time, s; none at its end, and none once all bodies rest of a run that ends then.
+    /// The model's next output time, s; none at its end, and none once all bodies are at rest in a run that ends then.
     pub fn next_output_s(&self) -> Option<f64> {
         let (time, now_s) = (&self.model.setup().time, self.time_s());
         if self.course.rest.is_over(now_s) {
@@ -154,7 +154,7 @@ impl<'m> Run<'m> {
         Ok(())
     }
 
-    /// Steps on by a time, s; as [`Run::advance_to`].
+    /// Steps by a duration, s; see [`Run::advance_to`].
     ///
     /// # Errors
     /// As of [`Run::advance_to`].
@@ -186,7 +186,7 @@ impl<'m> Run<'m> {
         self.course.record(&self.model, recorder)
     }
 
-    /// Goes on to the model's end and records every output on the way, the present one first.
+    /// Continues to the model's end and records every output on the way, the present one first.
     ///
     /// # Errors
     /// A step that fails, an error of the recorder.
@@ -257,18 +257,18 @@ impl<'m> Run<'m> {
         (path.motion(t_s, t_s, cursor), path.attitude(t_s, cursor))
     }
 
-    /// How the vehicle moves now, space axes.
+    /// Present motion of the vehicle, space axes.
     pub fn vehicle(&mut self) -> FrameMotion {
         let now_s = self.time_s();
         self.model.setup().path.motion(now_s, now_s, &mut self.course.cursor)
     }
 
-    /// Follows the accepted steps from now on: [`Run::take_steps`].
+    /// Records the accepted steps from now on: [`Run::take_steps`].
     pub fn follow_steps(&mut self, room: usize) {
         self.course.taken = Some(Vec::with_capacity(room));
     }
 
-    /// The accepted steps since they were last taken; none if nobody follows them. `spent` is a list to be used again.
+    /// Accepted steps since they were last taken; empty unless recorded. `spent` is a list to be reused.
     pub fn take_steps(&mut self, mut spent: Vec<Step>) -> Vec<Step> {
         spent.clear();
         match &mut self.course.taken {

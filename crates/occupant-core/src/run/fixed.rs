@@ -14,10 +14,10 @@ use crate::results::outcome::StepError;
 use crate::run::observers::{Felt, Met};
 use crate::vehicle::PathCursor;
 
-/// In most parts a step is taken in which something switches, each up to its next switch.
+/// Largest number of parts of a step with switches, each up to its next switch.
 const MOST_PARTS: u32 = 16;
 
-/// The steps from one output to the next: all of one length but the last, which ends at the output.
+/// Steps from one output to the next: all of one length except the last, which ends at the output.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch {
     from_s: f64,
@@ -30,9 +30,9 @@ pub struct Stretch {
 /// One step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Step {
-    /// Its start, s.
+    /// Start, s.
     pub start_s: f64,
-    /// Its end, s.
+    /// End, s.
     pub end_s: f64,
 }
 
@@ -44,7 +44,7 @@ impl Stretch {
 }
 
 impl Stretch {
-    /// True after the last step.
+    /// Whether the last step is done.
     #[inline]
     pub(crate) fn is_over(&self) -> bool {
         self.done >= self.count
@@ -69,19 +69,19 @@ impl Iterator for Stretch {
 }
 
 impl Step {
-    /// Its length, s.
+    /// Length, s.
     #[inline]
     pub fn length_s(self) -> f64 {
         self.end_s - self.start_s
     }
 
-    /// When it starts, its middle and its end, s.
+    /// Start, middle and end, s.
     #[inline]
     pub(crate) fn times_s(self) -> [f64; 3] {
         [self.start_s, 0.5 * (self.start_s + self.end_s), self.end_s]
     }
 
-    /// When a stage of the step under error control is, s.
+    /// Time of a stage under error control, s.
     #[inline]
     pub(crate) fn at_s(self, stage: Stage) -> f64 {
         match stage {
@@ -90,14 +90,14 @@ impl Step {
         }
     }
 
-    /// The middle of it, or of one as long before it, s.
+    /// Middle of it, or of an equal step before it, s.
     #[inline]
     pub(crate) fn middle_beside_s(self, is_before: bool) -> f64 {
         let half_s = 0.5 * self.length_s();
         self.start_s + if is_before { -half_s } else { half_s }
     }
 
-    /// Frames at its middle and end, behind those of its start.
+    /// Frames at its middle and end, after those of its start.
     #[inline]
     pub(crate) fn move_frames(self, frames: &mut [Frames<f64>; 3], model: &Model, cursor: &mut PathCursor) {
         let times_s = self.times_s();
@@ -106,7 +106,7 @@ impl Step {
         }
     }
 
-    /// Its first part, of the length that a step of this length may have; all of it, as a rule.
+    /// Its first part, of the permitted length; usually all of it.
     #[inline]
     pub(crate) fn first_part(self, bears: impl FnOnce(f64) -> f64) -> Step {
         let whole_s = self.length_s();
@@ -117,7 +117,7 @@ impl Step {
     }
 }
 
-/// What a run of fixed steps takes them with, and room for what each writes.
+/// Functions and buffers for fixed steps.
 struct Stepper<'a> {
     model: &'a Model,
     scratch: Scratch<f64>,
@@ -131,8 +131,8 @@ impl<'a> Stepper<'a> {
         Stepper { model, scratch, stages, frames: [Frames::still(0.0); 3] }
     }
 
-    /// Begins a step at the start of `rest`, which `history` takes over, where `met` is what touches and `felt` what is felt:
-    /// all of it, or the part that what is near bears.
+    /// Begins a step at the start of `rest`, with `history` updated there and contacts and readings in `met` and
+    /// `felt`: all of it, or the part that near pairs permit.
     fn begin(
         &mut self,
         rest: Step,
@@ -152,7 +152,7 @@ impl<'a> Stepper<'a> {
         rest.first_part(|h| history.step(h))
     }
 
-    /// The state after the rest of `step`.
+    /// State after the rest of `step`.
     fn go(&mut self, step: Step, from: &State<f64>, history: &mut History<f64>, cursor: &mut PathCursor) -> State<f64> {
         let Stepper { model, scratch, stages, frames, .. } = self;
         step.move_frames(frames, model, cursor);
@@ -162,7 +162,7 @@ impl<'a> Stepper<'a> {
         })
     }
 
-    /// Lets `history` take over a state at the end of a step.
+    /// Updates `history` with a state at the end of a step.
     fn commit(&mut self, time_s: f64, state: &State<f64>, history: &mut History<f64>, cursor: &mut PathCursor) {
         let frames = &mut self.frames[0];
         self.model.move_frames(frames, time_s, time_s, cursor);
@@ -178,7 +178,7 @@ impl<'a> Stepper<'a> {
 }
 
 impl Course {
-    /// What is left of a step, if anything, and all steps of `stretch`.
+    /// The rest of a step, if any, and all steps of `stretch`.
     pub(crate) fn advance_rk4(&mut self, model: &Model, left: Option<Step>, stretch: Stretch) -> Result<(), StepError> {
         let stepper = &mut Stepper::new(model, &self.state);
         for whole in left.into_iter().chain(stretch) {
@@ -191,8 +191,8 @@ impl Course {
         if self.taken.is_some() { self.look_back(stepper) } else { Ok(()) }
     }
 
-    /// A step of the length of `rest`, or of the part of it that what is near bears; where it ends. It ends where it begins if
-    /// something had switched within the step before: that was taken again.
+    /// A step of the length of `rest`, or of the part that near pairs permit; returns its end. It ends at its start if
+    /// an element had switched within the step before: that step was repeated.
     fn step_rk4(&mut self, stepper: &mut Stepper<'_>, rest: Step) -> Result<f64, StepError> {
         if let Some(rear) = &mut self.rear {
             rear.keep(&self.history);
@@ -215,7 +215,7 @@ impl Course {
         Ok(step.end_s)
     }
 
-    /// Takes the latest step again, if something had switched within it.
+    /// Repeats the latest step if an element switched within it.
     fn look_back(&mut self, stepper: &mut Stepper<'_>) -> Result<(), StepError> {
         let Some(rear) = self.rear.as_mut().filter(|rear| rear.step.is_some()) else { return Ok(()) };
         rear.keep(&self.history);
@@ -232,8 +232,7 @@ impl Course {
         }
     }
 
-    /// Goes back to the start of the latest step, if the commit at its end, which the history has just taken over, shows that
-    /// something has switched within it.
+    /// Goes back to the start of the latest step if the commit at its end, just done, shows a switch within it.
     pub(super) fn take_back(&mut self) -> Option<Step> {
         let rear = self.rear.as_mut()?;
         let has_switched = rear.step.is_some() && rear.spare.memory.has_switched(&self.history.memory);
@@ -243,7 +242,7 @@ impl Course {
         Some(latest)
     }
 
-    /// The same for a run whose state and history, which the caller has set, are those before the commit at the start of
+    /// The same for a run whose state and history, set by the caller, are those before the commit at the start of
     /// `latest`.
     #[cfg(any(target_arch = "x86_64", test))]
     pub(super) fn go_back(&mut self, model: &Model, latest: Step) -> Result<(), StepError> {
@@ -251,8 +250,7 @@ impl Course {
         self.take_again(stepper, latest)
     }
 
-    /// Takes the latest step again, if the commit of an output, which the history has just taken over, shows that something
-    /// has switched within it; whether it did.
+    /// Repeats the latest step if the commit of an output, just done, shows a switch within it; returns whether it did.
     pub(super) fn take_back_from_output(&mut self, model: &Model) -> bool {
         let Some(rear) = &self.rear else { return false };
         let kept = rear.step.is_some().then(|| (self.state, rear.spare.clone(), self.time_s));
@@ -265,7 +263,7 @@ impl Course {
         true
     }
 
-    /// Takes `step` again, from its start where the run stands, in parts that end where something switches.
+    /// Repeats `step` from its start, in parts that end at switches.
     fn take_again(&mut self, stepper: &mut Stepper<'_>, step: Step) -> Result<(), StepError> {
         let Some(mut rear) = self.rear.take() else { return Ok(()) };
         self.effort.steps -= 1;
@@ -287,8 +285,7 @@ impl Course {
         done
     }
 
-    /// The first part of `step`, up to where something switches, and the state at its end; `rear` gets the history of its
-    /// start.
+    /// First part of `step` up to a switch, and the state at its end; `rear` gets the history of its start.
     fn part(
         &mut self,
         stepper: &mut Stepper<'_>,
@@ -318,54 +315,55 @@ impl Course {
         }
     }
 
-    /// Notes what touches and what is felt at the start of an accepted step, which the history has taken over.
+    /// Notes contacts and readings at the start of an accepted step, after the history's update.
     fn note_by_own(&mut self, model: &Model, time_s: f64) {
         let past = &self.history.memory.contacts;
         self.seen.see(model, time_s, &self.met, &self.felt, |pair| past[pair].phase);
     }
 
-    /// The same where `phase` tells what pairs remember.
+    /// The same, with the memory of pairs given by `phase`.
     #[cfg(any(target_arch = "x86_64", test))]
     pub(super) fn note(&mut self, model: &Model, time_s: f64, phase: impl Fn(usize) -> f64) {
         self.seen.see(model, time_s, &self.met, &self.felt, phase);
     }
 }
 
-/// Where the latest step of fixed length began, to go back there.
+/// Start of the latest step of fixed length, to go back to.
 ///
-/// What it leads to is committed with the first evaluation of the step behind it, or with an output. Only then it is known
-/// whether anything has switched on the way.
+///
+/// The result of a step is committed with the first evaluation of the next one, or with an output. Only then are
+/// switches within it known.
 #[derive(Clone, Debug)]
 pub(super) struct Rear {
     /// The latest step; none if there is none to go back to.
     pub(super) step: Option<Step>,
-    /// At its start; the history is that before the commit there.
+    /// State at its start; the history is that before the commit there.
     pub(super) state: State<f64>,
     pub(super) history: History<f64>,
-    /// History before the commit under way.
+    /// History before the present commit.
     spare: History<f64>,
     search: Search,
 }
 
 impl Rear {
-    /// Of a run that stands at `state`.
+    /// For a run at `state`.
     pub(super) fn new(state: &State<f64>, history: &History<f64>) -> Self {
         let search = Search::new(&history.memory);
         Rear { step: None, state: *state, history: history.clone(), spare: history.clone(), search }
     }
 
-    /// `step` is the latest, from `state` on; the spare history is that before its first commit.
+    /// Sets `step`, from `state` on, as the latest; the spare history is that before its first commit.
     fn is_at(&mut self, step: Step, state: &State<f64>) {
         (self.step, self.state) = (Some(step), *state);
         std::mem::swap(&mut self.history, &mut self.spare);
     }
 
-    /// Keeps the history as it is before a commit.
+    /// Keeps the history before a commit.
     pub(super) fn keep(&mut self, history: &History<f64>) {
         self.spare.take_over(history);
     }
 
-    /// Keeps what is remembered before and after a commit, of lanes.
+    /// Keeps the memory before and after a commit, from lanes.
     #[cfg(any(target_arch = "x86_64", test))]
     pub(super) fn fetch<L>(&mut self, [before, now]: [&mut Memory<L>; 2], lane: impl Fn(&L) -> f64) {
         let mut fetch = |lanes: &mut L, x: &mut f64| *x = lane(lanes);
@@ -373,18 +371,18 @@ impl Rear {
         now.each(&mut self.spare.memory, &mut fetch);
     }
 
-    /// What was fetched.
+    /// Memory copied from lanes.
     #[cfg(any(target_arch = "x86_64", test))]
     pub(super) fn fetched(&self) -> [&Memory<f64>; 2] {
         [&self.history.memory, &self.spare.memory]
     }
 
-    /// What was kept.
+    /// Memory kept.
     pub(super) fn kept(&self) -> &Memory<f64> {
         &self.spare.memory
     }
 
-    /// There is no step to go back to.
+    /// Removes the step to go back to.
     pub(super) fn forget(&mut self) {
         self.step = None;
     }

@@ -20,46 +20,46 @@ use crate::run::observers::{Felt, Met, Seen};
 use crate::run::switch::{Search, Switches};
 use crate::vehicle::PathCursor;
 
-/// What may end a step early.
+/// Reasons to end a step early.
 pub(super) struct Asks<'a> {
-    /// Whether corners are looked for.
+    /// Whether kinks are searched for.
     pub corners: bool,
-    /// Whether something has switched by the end of the trial. If not, and no search is under way, nobody needs what was
-    /// remembered.
+    /// Whether an element has switched by the end of the trial. If not, and without a search, the memory is not needed.
     pub jumps: bool,
     pub tolerance: &'a Tolerance,
     pub last_s: f64,
 }
 
-/// The latest step of the integration, and where it stands.
+/// The latest step of the integration, and its end.
 #[derive(Clone)]
 pub(super) struct Front {
     pub step: Step,
-    /// What the steps are computed from. Of a run side by side with others it is what was last asked for.
+    /// Data of the steps. For a run side by side with others, it is that of the last request.
     pub ahead: Ahead<f64>,
-    /// The step being tried, if one is.
+    /// Step being tried, if any.
     pub pending: Option<Pending>,
-    /// Whether the rate at the end of the step is that of the step to come; not at the start, nor at a break of the path.
+    /// Whether the rate at the end of the step is that of the next step; not at the start, nor at a discontinuity of
+    /// the path.
     rate_is_known: bool,
-    /// Whether the step is known by its start alone, as after a checkpoint.
+    /// Whether only the start of the step is known, as after a checkpoint.
     is_half_known: bool,
-    /// What touches at the end of the step.
+    /// Contacts at the end of the step.
     pub met: Vec<Touching>,
-    /// What touches at the end of a trial.
+    /// Contacts at the end of a trial.
     pub met_in_trial: Vec<Touching>,
-    /// What is felt at the end of the step, and at the end of a trial.
+    /// Readings at the end of the step, and at the end of a trial.
     pub felt: Felt,
     pub felt_in_trial: Felt,
-    /// Whether the end of the step was noted.
+    /// Whether the end of the step has been noted.
     is_noted: bool,
-    /// For what switches, if anything can.
+    /// Search for switches, if any element can switch.
     search: Option<Search>,
     scratch: Scratch<f64>,
     frames: Frames<f64>,
 }
 
 impl Front {
-    /// Standing at `state`, before any step.
+    /// At `state`, before any step.
     pub(super) fn new(model: &Model, time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
         Front {
             step: Step { start_s: time_s, end_s: time_s },
@@ -78,7 +78,7 @@ impl Front {
         }
     }
 
-    /// Within the step that a checkpoint tells the start of, at `state`.
+    /// Within the step of a checkpoint, known by its start, at `state`.
     pub(super) fn within(model: &Model, start: &StepStart, state: &State<f64>) -> Self {
         let history = History::new(&model.system().forces, start.memory.clone());
         let mut front = Front::new(model, start.start_s, state, &history);
@@ -87,7 +87,7 @@ impl Front {
         front
     }
 
-    /// Takes the step again of which only the start is known.
+    /// Repeats a step known by its start only.
     pub(super) fn complete(
         &mut self,
         model: &Model,
@@ -107,13 +107,13 @@ impl Front {
         }
     }
 
-    /// Whether the rate at the end of the step has still to be worked out; who asks does so.
+    /// Whether the rate at the end of the step is still to be evaluated; the caller must do so.
     pub(super) fn must_look(&mut self) -> bool {
         !std::mem::replace(&mut self.rate_is_known, true)
     }
 
-    /// Evaluates the rate at the start of `step`, which begins where the front stands, unless it is known; `follows`: as the end of
-    /// the step before, at no break.
+    /// Evaluates the rate at the start of `step`, which begins at the front, unless it is known; `follows`: it
+    /// continues from the step before, without a discontinuity.
     pub(super) fn look(&mut self, model: &Model, step: Step, follows: bool, cursor: &mut PathCursor) {
         if !self.must_look() {
             return;
@@ -127,7 +127,7 @@ impl Front {
         system.read(&self.scratch, &self.frames, &mut |of, reading| self.felt.readings[of] = *reading);
     }
 
-    /// Tries `step`, which begins where the front stands.
+    /// Tries `step`, which begins at the front.
     pub(super) fn attempt(
         &mut self,
         model: &Model,
@@ -155,7 +155,7 @@ impl Front {
         })
     }
 
-    /// `step`, whose trial is accepted, is the latest; `at_break`: the velocity of the vehicle may jump at its end.
+    /// Accepts the tried `step` as the latest; `at_break`: the velocity of the vehicle may jump at its end.
     pub(super) fn accept(&mut self, step: Step, at_break: bool) {
         (self.step, self.is_noted) = (step, false);
         self.rate_is_known = !at_break;
@@ -163,15 +163,15 @@ impl Front {
         swap(&mut self.felt, &mut self.felt_in_trial);
     }
 
-    /// Looks for no switch until a trial shows one.
+    /// Ends any search for switches until a trial shows one.
     pub(super) fn begin_step(&mut self) {
         if let Some(search) = &mut self.search {
             search.rest();
         }
     }
 
-    /// Where to end `step` instead, which was just tried: where something switches, or just behind its first corner that
-    /// matters, whichever comes first, s; `last_s` is the length of the step before. All that ends a step early is listed here.
+    /// Earlier end of the tried `step`, s: at a switch, or just behind its first relevant kink, whichever comes first;
+    /// `last_s` is the length of the step before. All reasons to end a step early are listed here.
     pub(super) fn end_earlier(&mut self, model: &Model, step: Step, asks: &Asks<'_>) -> Option<f64> {
         let switch = |search: &mut Search| {
             let Ahead { after, trial, .. } = &self.ahead;
@@ -186,7 +186,7 @@ impl Front {
         switch_s.into_iter().chain(corner_s).reduce(f64::min)
     }
 
-    /// Just behind the first corner of `step` that matters, s.
+    /// Time just behind the first relevant kink of `step`, s.
     fn end_behind_corner(&self, model: &Model, step: Step, tolerance: &Tolerance) -> Option<f64> {
         let crossing = Crossing {
             model,
@@ -199,29 +199,29 @@ impl Front {
         crossing.end_behind_corner()
     }
 
-    /// Whether something has switched by the end of the last trial.
+    /// Whether an element has switched by the end of the last trial.
     pub(super) fn has_switched(&self) -> bool {
         self.can_switch() && self.ahead.after.memory.has_switched(&self.ahead.trial.memory)
     }
 
-    /// Whether anything can switch.
+    /// Whether any element can switch.
     pub(super) fn can_switch(&self) -> bool {
         self.search.is_some()
     }
 
-    /// Whether a switch within the step ahead is being looked for.
+    /// Whether a search for a switch within the next step is in progress.
     #[cfg(any(target_arch = "x86_64", test))]
     pub(super) fn searches(&self) -> bool {
         self.search.as_ref().is_some_and(Search::is_under_way)
     }
 
-    /// What could not be worked out within the last trial, as text.
+    /// Elements that could not be computed within the last trial, as text.
     pub(super) fn failure(&self, model: &Model) -> Option<String> {
         self.ahead.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
     }
 
-    /// Notes once what is felt and what touches at the end of the step, as all outputs before it are recorded: an output there
-    /// belongs to the step.
+    /// Notes contacts and readings at the end of the step, once, after all earlier outputs are recorded: an output
+    /// there belongs to the step.
     pub(super) fn note(&mut self, model: &Model, seen: &mut Seen, switches: &mut Switches) {
         if self.must_note() {
             if self.can_switch() {
@@ -233,14 +233,14 @@ impl Front {
         }
     }
 
-    /// Whether the end of the step has still to be noted; who asks does so.
+    /// Whether the end of the step is still to be noted; the caller must do so.
     pub(super) fn must_note(&mut self) -> bool {
         // before the first step nothing was evaluated
         self.step.length_s() > 0.0 && !std::mem::replace(&mut self.is_noted, true)
     }
 
-    /// State and history at `time_s` within the step; the history is that of the step's start, into which the present
-    /// position is not yet taken over.
+    /// State and history at `time_s` within the step; the history is that of the step's start, before its update with
+    /// the present position.
     pub(super) fn show(&self, time_s: f64, state: &mut State<f64>, history: &mut History<f64>) {
         *state = self.state_at(time_s);
         history.take_over(&self.ahead.before);
@@ -255,7 +255,7 @@ impl Front {
         within([from, at_from], [to, at_to], h, (time_s - self.step.start_s) / h)
     }
 
-    /// The start of the step, if it continues beyond `time_s`.
+    /// Start of the step, if it continues beyond `time_s`.
     pub(super) fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
         let at = if self.is_half_known { &self.ahead.to } else { &self.ahead.from };
         (time_s < self.step.end_s).then_some(StepUnderWay {

@@ -20,12 +20,12 @@ use crate::run::changes::Changes;
 use crate::run::corner::Touching;
 use crate::vehicle::PathCursor;
 
-/// A sphere against a part of a face, as first contacts and peaks tell it.
+/// Contact of a sphere with a part of a face, for first contacts and peaks.
 #[derive(Clone, Copy)]
 pub(super) struct Meeting {
     pub sphere: usize,
     pub pair: usize,
-    /// Which of the pair's parts.
+    /// Index of the pair's part.
     pub part: usize,
     pub closing_m_s: f64,
     /// Relative to the face.
@@ -47,7 +47,7 @@ impl From<&Touch<f64>> for Meeting {
     }
 }
 
-/// What was seen at one instant beside what touches: the numbers that force elements track, and readings by body.
+/// Values at one instant besides contacts: tracked values of force elements, and readings by body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Felt {
     pub numbers: Vec<f64>,
@@ -55,14 +55,14 @@ pub(super) struct Felt {
 }
 
 impl Felt {
-    /// With room for all that `model` can show.
+    /// Space for all values of `model`.
     pub(super) fn new(model: &Model) -> Self {
         let nothing = [f64::NAN; READINGS];
         Felt { numbers: Vec::with_capacity(tracked(model)), readings: vec![nothing; model.system().instruments.len()] }
     }
 }
 
-/// How many numbers the force elements of a model track.
+/// Number of tracked values of a model.
 fn tracked(model: &Model) -> usize {
     let start = model.start();
     let mut cursor = PathCursor::default();
@@ -85,7 +85,7 @@ impl Tracker<f64> for Count<'_> {
     fn touch(&mut self, _touch: &Touch<f64>) {}
 }
 
-/// Stores which sphere has touched which surface, the largest values and the readings.
+/// Records first contacts of spheres with surfaces, the largest values and the readings.
 #[derive(Clone)]
 pub(super) struct Seen {
     surfaces: usize,
@@ -99,24 +99,24 @@ pub(super) struct Seen {
     look: Look,
 }
 
-/// What largest values are found with.
+/// Data for the search for largest values.
 #[derive(Clone)]
 struct Look {
     /// By sphere.
     part_of: Vec<usize>,
-    /// By body: where the head begins, axes of its home, m.
+    /// By body: initial position of the head, axes of its home, m.
     starts_m: Vec<[f64; 3]>,
     /// By part.
     sums: Vec<Sum>,
-    /// Surfaces that are head restraints in a blow from behind; by sphere, whose head it is of; by body, the force of a restraint on
-    /// its head, N.
+    /// Surfaces that are head restraints in a rear impact; by sphere, the body of its head; by body, the force of a
+    /// restraint on its head, N.
     restraints: Vec<usize>,
     heads: Vec<Option<usize>>,
     held: Vec<f64>,
     holding: Vec<V3<f64>>,
 }
 
-/// What a part of the body feels at one instant.
+/// Sum of the contacts of a part of the body at one instant.
 #[derive(Clone, Copy)]
 struct Sum {
     force_n: V3<f64>,
@@ -134,7 +134,7 @@ impl Seen {
         Seen { surfaces, known, touches, peaks, fine: Fine::new(model), changes, bars, look }
     }
 
-    /// Takes over what an earlier part of the run has seen; all of it is of the model.
+    /// Takes the record of an earlier part of the run of the same model.
     pub(super) fn know(&mut self, from: &Checkpoint) -> bool {
         for touch in &from.first_touches {
             self.known[touch.sphere * self.surfaces + touch.surface] = true;
@@ -148,7 +148,7 @@ impl Seen {
         self.peaks.read(&from.peaks) && self.fine.read(&from.readings_before, &from.readings)
     }
 
-    /// Notes what is there at an accepted step; `phases` tells what pairs remember.
+    /// Notes the values at an accepted step; `phases` gives the memory of pairs.
     pub(super) fn see(
         &mut self,
         model: &Model,
@@ -168,7 +168,7 @@ impl Seen {
         }
     }
 
-    /// Compares an accepted step with the one before; the same step twice makes no difference.
+    /// Compares an accepted step with the one before; repeating the same step has no effect.
     pub(super) fn compare(&mut self, model: &Model, time_s: f64, met: &[Touching], felt: &Felt) {
         self.changes.see(time_s, &felt.numbers);
         let (parts, part_of) = (&mut self.peaks.parts, &self.look.part_of);
@@ -179,12 +179,12 @@ impl Seen {
         });
     }
 
-    /// What has happened to force elements since this was last asked.
+    /// Events of force elements since the last call.
     pub(super) fn told(&mut self) -> &mut Vec<Switched> {
         &mut self.changes.told
     }
 
-    /// What there is to see at one instant alone.
+    /// Values at one instant only.
     pub(super) fn look_at(
         &mut self,
         model: &Model,
@@ -197,7 +197,7 @@ impl Seen {
         self.look.at(model, time_s, seen, |pair| past[pair].phase, peaks);
     }
 
-    /// Notes a touch of `model`, the one that this was made for.
+    /// Notes a contact of `model`, for which this was made.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
         let surface = model.system().forces.contacts.surface(meeting.pair, meeting.part);
@@ -211,7 +211,7 @@ impl Seen {
     }
 }
 
-/// Peaks of a run of `model` that has seen nothing.
+/// Empty peaks of a run of `model`.
 pub(super) fn none_of(model: &Model) -> Peaks {
     Peaks::none(tracked(model), model.system().instruments.len(), model.body().parts().count())
 }
@@ -234,7 +234,7 @@ impl Look {
         }
     }
 
-    /// Adds up the forces of head restraints on heads.
+    /// Sums the forces of head restraints on heads.
     fn hold(&mut self, model: &Model, met: &[Touching]) {
         if self.restraints.is_empty() {
             return;
@@ -273,7 +273,7 @@ impl Look {
         }
     }
 
-    /// Touches come sphere by sphere or frame by frame: they are added up first, then compared.
+    /// Contacts come by sphere or by frame: they are summed first, then compared.
     fn at_parts(
         &mut self,
         model: &Model,
@@ -308,7 +308,7 @@ impl Look {
     }
 }
 
-/// Where the heads of a model begin, by body.
+/// Initial positions of the heads of a model, by body.
 fn starts_m(model: &Model) -> Vec<[f64; 3]> {
     let (system, start_s) = (model.system(), model.setup().time.start_s);
     let k = Kinematics::new(&system.skeleton, &model.start().state);
@@ -320,7 +320,7 @@ fn starts_m(model: &Model) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// What is compared of a reading; see [`Peaks`].
+/// Compared values of a reading; see [`Peaks`].
 fn felt_of(reading: &Reading<f64>, start_m: &[f64; 3]) -> [f64; FELT] {
     let length = |from: usize| {
         let [x, y, z] = [reading[from], reading[from + 1], reading[from + 2]];
@@ -338,14 +338,14 @@ fn felt_of(reading: &Reading<f64>, start_m: &[f64; 3]) -> [f64; FELT] {
     all
 }
 
-/// Collects what touches and what force elements track: the one observer of steps, as each kind is a whole kernel in the build.
+/// Collects contacts and tracked values: the only observer of steps, as each kind adds a whole kernel to the build.
 pub(super) struct Met<'a> {
     pub met: &'a mut Vec<Touching>,
     pub numbers: &'a mut Vec<f64>,
 }
 
 impl<'a> Met<'a> {
-    /// Of what is there alone.
+    /// Of a separate instant.
     pub(super) fn anew(met: &'a mut Vec<Touching>, felt: &'a mut Felt) -> Self {
         met.clear();
         felt.numbers.clear();

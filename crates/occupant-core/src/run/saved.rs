@@ -10,7 +10,7 @@ use crate::quantity::{FieldWords, Value};
 use crate::results::checkpoint::Checkpoint;
 use crate::vehicle::live::LiveFrames;
 
-/// What stands at the beginning.
+/// First bytes of the format.
 const MARK: &[u8; 16] = b"occupant run 1\r\n";
 
 impl Run<'_> {
@@ -84,7 +84,7 @@ impl<'m> Run<'m> {
     }
 }
 
-/// Energies from which balances count, which a checkpoint has of the first body alone.
+/// Reference energies of balances, of which a checkpoint contains those of the first body only.
 fn take_energies(course: &mut Course, numbers: &[f64]) {
     for (start, own) in course.energy_starts.iter_mut().zip(numbers.chunks_exact(crate::forces::STORES + 1)) {
         start.stored_j.copy_from_slice(&own[..crate::forces::STORES]);
@@ -92,13 +92,13 @@ fn take_energies(course: &mut Course, numbers: &[f64]) {
     }
 }
 
-/// Lists beside the checkpoint.
+/// Lists in addition to the checkpoint.
 const EXTRA: FieldWords = FieldWords { number: u32::MAX, stem: "", meaning: "" };
 
-/// Writes values one behind the other: the number of the field, what kind it is, how long, and the numbers.
+/// Writes values one after another: field number, kind, length, numbers.
 struct Writer(Vec<u8>);
 
-/// Reads them back.
+/// Reads these values.
 struct Reader<'a> {
     rest: &'a [u8],
     is_sound: bool,

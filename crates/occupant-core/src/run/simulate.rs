@@ -14,7 +14,7 @@ pub fn simulate(model: &Model, recorder: impl Recorder) -> Result<Outcome, Simul
     attempt(model, recorder)?.succeeded()
 }
 
-/// Runs `model` as far as it goes: a step that fails is an [`Outcome`] of [`Status::Failed`].
+/// Runs `model` as far as possible: a failed step is an [`Outcome`] of [`Status::Failed`].
 ///
 /// # Errors
 /// An error of the recorder.

@@ -9,31 +9,31 @@ use super::Step;
 use crate::forces::{Forces, Listed, Memory, Visitor, visit_kinds};
 use crate::results::sample::Switched;
 
-/// The time of a switch is found to this part of the step, s, and to [`CLOSEST_S`].
+/// Accuracy of the time of a switch, as a fraction of the step; also limited by [`CLOSEST_S`].
 const CLOSE: f64 = 1e-3;
 const CLOSEST_S: f64 = 1e-6;
 
-/// How far behind the expected switch a trial ends, as a part of what is close.
+/// Distance of a trial's end behind the expected switch, as a fraction of that accuracy.
 const BEHIND: f64 = 0.3;
 
-/// Most trials of one search; halving alone takes ten.
+/// Largest number of trials of one search; bisection alone takes ten.
 const MOST: u32 = 40;
 
-/// The end of a step at which something has switched, for who follows the steps.
+/// End of a step with a switch, for callers that follow the steps.
 #[derive(Clone, Debug)]
 pub struct Jump {
-    /// When, s.
+    /// Time, s.
     pub time_s: f64,
-    /// What force elements remember before and after; [`Memory::switched`] tells which of them have switched.
+    /// Memory of the force elements before and after; [`Memory::switched`] lists the switched elements.
     pub memory: [Memory<f64>; 2],
 }
 
-/// The switches of a run.
+/// Switches of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Switches {
     /// Since the last output.
     pub(super) told: Vec<Switched>,
-    /// All since it was last emptied, where somebody wants to follow them.
+    /// All since it was last emptied, if requested.
     pub(super) followed: Option<Vec<Jump>>,
 }
 
@@ -42,7 +42,7 @@ impl Switches {
         Switches { told: Vec::with_capacity(ROOM), followed: None }
     }
 
-    /// Notes what has switched between two commits, the second of them at this time.
+    /// Notes the switches between two commits, the second at this time.
     pub(super) fn note(&mut self, forces: &Forces<f64>, time_s: f64, before: &Memory<f64>, now: &Memory<f64>) {
         if !before.has_switched(now) {
             return;
@@ -54,7 +54,7 @@ impl Switches {
     }
 }
 
-/// Room for what happens between two outputs; more is told as well.
+/// Number of events between two outputs with reserved space; more are recorded as well.
 pub(super) const ROOM: usize = 64;
 
 struct Telling<'a> {
@@ -74,17 +74,17 @@ impl Visitor for Telling<'_> {
     }
 }
 
-/// What happened from a start to a commit.
+/// Switches from the start to a commit.
 #[derive(Clone, Debug)]
 struct Seen {
     time_s: f64,
     memory: Memory<f64>,
 }
 
-/// A search for the first switch within a step.
+/// Search for the first switch within a step.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
-    /// The longest trial in which nothing had switched, and the shortest in which something had.
+    /// Longest trial without a switch, and shortest with one.
     before: Seen,
     behind: Seen,
     close_s: f64,
@@ -92,24 +92,24 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// None under way; with room for what `memory` is like.
+    /// No search; with space for a memory like `memory`.
     pub(super) fn new(memory: &Memory<f64>) -> Self {
         let seen = || Seen { time_s: 0.0, memory: memory.clone() };
         Search { before: seen(), behind: seen(), close_s: 0.0, trials: 0 }
     }
 
-    /// Looks for no switch until a trial shows one.
+    /// Ends the search until a trial shows a switch.
     pub(super) fn rest(&mut self) {
         self.trials = 0;
     }
 
-    /// Whether a switch is being looked for.
+    /// Whether a search is in progress.
     pub(super) fn is_under_way(&self) -> bool {
         self.trials > 0
     }
 
-    /// Where the step is to end instead of `step.end_s`, s; none if it may end there. `memory` is that of both ends of
-    /// the trial, `last_s` the length of the step before.
+    /// End of the step instead of `step.end_s`, s; none if it may end there. `memory` is that of both ends of the
+    /// trial, `last_s` the length of the step before.
     pub(super) fn end_earlier(
         &mut self,
         forces: &Forces<f64>,

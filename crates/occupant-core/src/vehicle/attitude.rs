@@ -22,11 +22,11 @@ pub struct Attitude {
     pub yaw_rad: f64,
 }
 
-/// Below this cos θ the vehicle stands on its nose or tail, and roll and yaw turn about the same axis.
+/// cos θ below which the vehicle points vertically, and roll and yaw have the same axis.
 const LOCKED_COSINE: f64 = 1e-9;
 
 impl Attitude {
-    /// The matrix A (3×3) that turns vehicle components into vehicle-space components (78).
+    /// Matrix A (3×3) from vehicle to vehicle-space components (78).
     pub fn matrix(&self) -> Matrix3<f64> {
         Trigonometry::of(self.to_vector()).matrix()
     }
@@ -78,12 +78,12 @@ impl Attitude {
     }
 }
 
-/// `angle` plus the whole turns that bring it nearest to `reference`, rad.
+/// `angle` plus the multiple of 2π that brings it nearest to `reference`, rad.
 fn nearest_turn(angle: f64, reference: f64) -> f64 {
     angle - TAU * ((angle - reference) / TAU).round()
 }
 
-/// A turning vehicle, seen in vehicle-space axes.
+/// Rotation of a vehicle, in vehicle-space axes.
 pub(super) struct Turning {
     /// A (Eq. 79).
     pub matrix: Matrix3<f64>,
@@ -144,7 +144,7 @@ impl Trigonometry {
         )
     }
 
-    /// Axes in vehicle-space about which roll, pitch and yaw turn, in this order.
+    /// Axes of roll, pitch and yaw in vehicle-space, in this order.
     fn axes(&self) -> [Vector3<f64>; 3] {
         let ((s_theta, c_theta), (s_psi, c_psi)) = (self.pitch, self.yaw);
         [
@@ -155,7 +155,7 @@ impl Trigonometry {
     }
 }
 
-/// The rotation (3×3) about the direction of `turn_rad` by its length in rad: the exponential of its cross-product matrix.
+/// Rotation matrix (3×3) of the rotation vector `turn_rad`, rad: the exponential of its cross-product matrix.
 pub(super) fn rotation_by(turn_rad: Vector3<f64>) -> Matrix3<f64> {
     let angle = turn_rad.norm();
     let (sine, _) = trig::sin_cos(angle);

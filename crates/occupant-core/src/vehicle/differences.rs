@@ -19,7 +19,7 @@ use super::table::AfterEnd;
 pub(super) struct Differences(Vec<(f64, Vector6<f64>)>);
 
 impl Differences {
-    /// Those of stations, of which there are at least two.
+    /// Second derivatives of stations, of which there are at least two.
     pub(super) fn new(times_s: &[f64], values: &[Vector6<f64>], after: AfterEnd) -> Self {
         let last = times_s.len() - 1;
         let slope = |i: usize| (values[i + 1] - values[i]) / (times_s[i + 1] - times_s[i]);
@@ -37,8 +37,8 @@ impl Differences {
         Differences(all)
     }
 
-    /// Those at `t_s`: on the straight line between two times, outside all of them those of the nearest. None of two stations
-    /// alone, between which the velocity is constant.
+    /// Second derivatives at `t_s`: linear between two times, constant beyond the first and the last. Zero for two
+    /// stations, between which the velocity is constant.
     pub(super) fn at(&self, t_s: f64) -> Vector6<f64> {
         let after = self.0.partition_point(|(time_s, _)| *time_s <= t_s);
         match (after.checked_sub(1).map(|i| self.0[i]), self.0.get(after)) {

@@ -9,7 +9,7 @@ use super::attitude::Attitude;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::PathProblem;
 
-/// A vehicle that was driven. Clones share the drive.
+/// A driven vehicle. Clones share the drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrivenPath(Arc<Driven>);
 
@@ -22,7 +22,7 @@ struct Driven {
 }
 
 impl DrivenPath {
-    /// Along a drive.
+    /// Path of a drive.
     pub fn new(drive: Drive) -> Self {
         let times_s: Vec<f64> = drive.times_s().collect();
         let mut near = Attitude::default();
@@ -49,14 +49,14 @@ impl DrivenPath {
         if t_s == inside_s { motion } else { motion.coasted(t_s - inside_s) }
     }
 
-    /// Place and attitude at `t_s`, for output.
+    /// Position and attitude at `t_s`, for output.
     pub(super) fn pose(&self, t_s: f64) -> VehiclePose {
         let Driven { times_s, angles, .. } = &*self.0;
         let before = times_s.partition_point(|station_s| *station_s <= t_s).saturating_sub(1);
         self.motion(t_s).pose(&angles[before])
     }
 
-    /// Whether the drive lasts from `start_s` to `end_s`.
+    /// Whether the drive covers `start_s` to `end_s`.
     pub(super) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         let [first_s, last_s] = self.0.drive.span_s();
         if first_s <= start_s && end_s <= last_s {

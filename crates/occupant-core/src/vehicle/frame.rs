@@ -8,9 +8,9 @@ use super::attitude::{Attitude, rotation_by};
 /// Pose and motion of a moving frame at one instant, all in space axes (X′ forward, Y′ left, Z′ up), SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameMotion {
-    /// Where the frame's origin is, m. For a vehicle F·X_vc (Eq. 82).
+    /// Position of the frame's origin, m. For a vehicle F·X_vc (Eq. 82).
     pub origin_m: Vector3<f64>,
-    /// Turns components along the frame's axes into components along the space axes: R_v = F·A (Eq. 82).
+    /// Rotation from the frame's axes to the space axes: R_v = F·A (Eq. 82).
     pub rotation: Matrix3<f64>,
     /// Velocity of the origin, m/s.
     pub velocity_m_s: Vector3<f64>,
@@ -36,7 +36,7 @@ impl FrameMotion {
         }
     }
 
-    /// The motion of a frame that does not exist.
+    /// Motion of a frame that does not exist.
     pub(crate) fn nowhere() -> Self {
         let none = Vector3::repeat(f64::NAN);
         FrameMotion {
@@ -49,42 +49,42 @@ impl FrameMotion {
         }
     }
 
-    /// Whether all of it is numbers.
+    /// Whether all values are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let vectors = [self.velocity_m_s, self.angular_velocity_rad_s, self.acceleration_m_s2];
         let sum = self.rotation.sum() + self.angular_acceleration_rad_s2.sum() + self.origin_m.sum();
         sum.is_finite() && vectors.iter().all(|v| v.sum().is_finite())
     }
 
-    /// The space point of a point given in the frame, m.
+    /// Space point of a point given in the frame, m.
     pub fn point_to_space(&self, point_frame_m: Vector3<f64>) -> Vector3<f64> {
         // X′ = F·X_vc + F·A·X_v (82)
         self.origin_m + self.rotation * point_frame_m
     }
 
-    /// The point in the frame of a point given in space, m.
+    /// Point in the frame of a point given in space, m.
     pub fn point_to_frame(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
         // X_v = Aᵀ·F·X′ − Aᵀ·X_vc (83)
         self.rotation.tr_mul(&(point_space_m - self.origin_m))
     }
 
-    /// Components along the space axes of a vector given along the frame's axes (Eq. 94).
+    /// Space components of a vector given in the frame (Eq. 94).
     pub fn vector_to_space(&self, vector_frame: Vector3<f64>) -> Vector3<f64> {
         self.rotation * vector_frame
     }
 
-    /// Components along the frame's axes of a vector given along the space axes.
+    /// Frame components of a vector given in space.
     pub fn vector_to_frame(&self, vector_space: Vector3<f64>) -> Vector3<f64> {
         self.rotation.tr_mul(&vector_space)
     }
 
-    /// Velocity in space, m/s, of the point of the frame that is at `point_space_m` now.
+    /// Velocity in space, m/s, of the frame's point at `point_space_m`.
     pub(crate) fn velocity_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
         // v + ω × r
         self.velocity_m_s + self.angular_velocity_rad_s.cross(&(point_space_m - self.origin_m))
     }
 
-    /// The same frame `duration_s` later, its velocity and angular velocity in space unchanged.
+    /// The same frame `duration_s` later, with constant velocity and angular velocity in space.
     pub(super) fn coasted(&self, duration_s: f64) -> Self {
         FrameMotion {
             origin_m: self.origin_m + self.velocity_m_s * duration_s,
@@ -101,7 +101,7 @@ impl FrameMotion {
         FrameMotion { origin_m: to_space(pose.position_m), rotation, ..FrameMotion::space() }
     }
 
-    /// Its pose in vehicle-space, as roll, pitch and yaw nearest to those of `near`.
+    /// Its pose in vehicle-space, with roll, pitch and yaw nearest to those of `near`.
     pub(super) fn pose(&self, near: &Attitude) -> VehiclePose {
         let attitude = Attitude::from_matrix(&rotation_to_space(self.rotation), near);
         VehiclePose { position_m: to_space(self.origin_m), attitude }
@@ -120,7 +120,7 @@ pub(super) fn to_space(vector: Vector3<f64>) -> Vector3<f64> {
     Vector3::new(vector.x, -vector.y, -vector.z)
 }
 
-/// F·A: rows 2 and 3 of `matrix` with their signs turned.
+/// F·A: `matrix` with rows 2 and 3 negated.
 pub(super) fn rotation_to_space(matrix: Matrix3<f64>) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)) * matrix
 }

@@ -18,48 +18,48 @@ use super::frame::{FrameMotion, to_space};
 use super::own::VehicleState;
 use super::{Attitude, VehiclePose};
 
-/// Faster than this no place is changed, m/s²: then it leaps.
+/// Largest acceleration of a motion, m/s²; more is a jump.
 const MOST_M_S2: f64 = 1e5;
-/// Further than this nothing turns within one frame, rad.
+/// Largest rotation within one frame, rad.
 const MOST_RAD: f64 = 2.0;
 
-/// A path that is told frame by frame: [`Run::push`](crate::run::Run::push). It begins as given and continues without
-/// acceleration until it is told otherwise.
+/// A path given frame by frame: [`Run::push`](crate::run::Run::push). It starts as given and continues without
+/// acceleration until more is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LivePath {
-    /// The vehicle at 0 s; its accelerations count nothing.
+    /// Vehicle state at 0 s; its accelerations are ignored.
     pub start: VehicleState,
 }
 
 impl LivePath {
-    /// Before the first frame.
+    /// Motion before the first frame.
     pub(super) fn motion(&self, t_s: f64) -> FrameMotion {
         self.start.motion().coasted(t_s)
     }
 
-    /// Place and attitude then.
+    /// Position and attitude before the first frame.
     pub(super) fn pose(&self, t_s: f64) -> VehiclePose {
         self.motion(t_s).pose(&self.start.pose.attitude)
     }
 }
 
-/// How a vehicle moves in one frame, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).
+/// Motion of a vehicle in one frame, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum VehicleInput {
-    /// These accelerations all along the frame.
+    /// Constant accelerations over the frame.
     Acceleration {
         /// Of the c.g., m/s².
         linear_m_s2: Vector3<f64>,
         /// Angular, rad/s².
         angular_rad_s2: Vector3<f64>,
     },
-    /// Where it is and how it moves at the end of the frame; accelerations count nothing.
+    /// State at the end of the frame; its accelerations are ignored.
     State(VehicleState),
 }
 
 impl VehicleInput {
-    /// An acceleration of the c.g. without one of turning, m/s².
+    /// An acceleration of the c.g. without angular acceleration, m/s².
     pub fn acceleration(linear_m_s2: [f64; 3]) -> Self {
         VehicleInput::Acceleration { linear_m_s2: linear_m_s2.into(), angular_rad_s2: Vector3::zeros() }
     }
@@ -122,7 +122,7 @@ impl LiveFrame {
         Ok(frame)
     }
 
-    /// Pose and motion at a time within, in space axes; beyond its end it coasts.
+    /// Pose and motion at a time within, in space axes; beyond its end the vehicle coasts.
     pub(crate) fn motion(&self, t_s: f64) -> FrameMotion {
         let within_s = t_s.clamp(self.from_s, self.until_s) - self.from_s;
         let [way, velocity, acceleration] = at(&self.place, within_s);
@@ -139,7 +139,7 @@ impl LiveFrame {
         if t_s > self.until_s { motion.coasted(t_s - self.until_s) } else { motion }
     }
 
-    /// Place and attitude at a time, for output.
+    /// Position and attitude at a time, for output.
     pub(crate) fn pose(&self, t_s: f64) -> VehiclePose {
         self.motion(t_s).pose(&self.near)
     }
@@ -175,7 +175,7 @@ impl LiveFrame {
     }
 }
 
-/// Numbers of a frame: its times, ten vectors, a matrix.
+/// Count of numbers of a frame: its times, ten vectors, a matrix.
 const FRAME: usize = 2 + 3 * 10 + 9;
 
 /// A cubic and its first two derivatives.
@@ -184,7 +184,7 @@ fn at(cubic: &[Vector3<f64>; 3], t: f64) -> [Vector3<f64>; 3] {
     [(a + (b + c * t) * t) * t, a + (b * 2.0 + c * (3.0 * t)) * t, b * 2.0 + c * (6.0 * t)]
 }
 
-/// The cubic that leads over `way` in a time `t`, with these rates at its ends.
+/// Cubic over the displacement `way` in a time `t`, with these rates at its ends.
 fn hermite(way: Vector3<f64>, first: Vector3<f64>, last: Vector3<f64>, t: f64) -> [Vector3<f64>; 3] {
     [first, (way * (3.0 / t) - first * 2.0 - last) / t, (way * (-2.0 / t) + first + last) / (t * t)]
 }
@@ -218,7 +218,7 @@ fn turning(phi: Vector3<f64>, dphi: Vector3<f64>, ddphi: Vector3<f64>) -> (Vecto
     (omega, alpha)
 }
 
-/// φ̇ of a rotation vector where the angular velocity is ω.
+/// φ̇ of a rotation vector for the angular velocity ω.
 fn unturned(phi: Vector3<f64>, omega: Vector3<f64>) -> Vector3<f64> {
     let square = phi.norm_squared();
     let c = if square < 1e-3 {
@@ -232,7 +232,7 @@ fn unturned(phi: Vector3<f64>, omega: Vector3<f64>) -> Vector3<f64> {
     omega - once * 0.5 + phi.cross(&once) * c
 }
 
-/// The rotation vector of a turn by less than π.
+/// Rotation vector of a rotation by less than π.
 fn rotation_vector(turn: &Matrix3<f64>) -> Vector3<f64> {
     let by_sine =
         Vector3::new(turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]) * 0.5;
@@ -242,7 +242,7 @@ fn rotation_vector(turn: &Matrix3<f64>) -> Vector3<f64> {
     if sine < 1e-5 && angle < 1.0 { by_sine * (1.0 + sine * sine / 6.0) } else { by_sine * (angle / sine) }
 }
 
-/// The latest given frames: a step that ends in the present one may have to be repeated from the previous one.
+/// Latest given frames: a step that ends in the present one may have to be repeated from the previous one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LiveFrames {
     before: Option<LiveFrame>,
@@ -250,12 +250,12 @@ pub(crate) struct LiveFrames {
 }
 
 impl LiveFrames {
-    /// With a frame behind those that there are.
+    /// Adds a frame after the existing ones.
     pub(crate) fn with(before: Option<&LiveFrames>, now: LiveFrame) -> Self {
         LiveFrames { before: before.map(|frames| frames.now), now }
     }
 
-    /// The latest.
+    /// Latest frame.
     pub(crate) fn now(&self) -> &LiveFrame {
         &self.now
     }
@@ -265,7 +265,7 @@ impl LiveFrames {
         self.before.iter().chain([&self.now]).flat_map(LiveFrame::numbers).collect()
     }
 
-    /// Of the numbers that [`LiveFrames::numbers`] gave; none of others.
+    /// Frames from the numbers of [`LiveFrames::numbers`]; none from invalid ones.
     pub(crate) fn from_numbers(numbers: &[f64]) -> Option<Self> {
         let (frames, rest) = numbers.as_chunks::<FRAME>();
         let is_sound = rest.is_empty() && numbers.iter().all(|x| x.is_finite());
@@ -278,7 +278,7 @@ impl LiveFrames {
         }
     }
 
-    /// The one to which a step belongs, by its middle.
+    /// Frame of a step, by its middle.
     pub(super) fn of(&self, step_middle_s: f64) -> &LiveFrame {
         self.before.as_ref().filter(|_| step_middle_s < self.now.from_s).unwrap_or(&self.now)
     }
@@ -315,7 +315,8 @@ mod tests {
         [VehicleInput::Acceleration { linear_m_s2, angular_rad_s2 }, VehicleInput::State(end())]
     }
 
-    /// Velocities are the derivatives of places, accelerations those of velocities, by differences of 10 µs: 3e-9 measured.
+    /// Velocities are the derivatives of positions, accelerations those of velocities, by differences of 10 µs: 3e-9
+    /// measured.
     #[test]
     fn what_is_told_fits_together() {
         for input in inputs() {

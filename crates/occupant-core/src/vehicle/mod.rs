@@ -82,20 +82,20 @@ pub enum VehiclePath {
     Sensors(Box<SensorPath>),
     /// At rest.
     Fixed(FixedPath),
-    /// A drive that was computed before.
+    /// A drive computed before.
     Driven(DrivenPath),
-    /// What a program computes itself.
+    /// Motion computed by the calling program.
     Own(OwnPath),
     /// Motion given during a run.
     Live(Box<LivePath>),
 }
 
-/// A run may miss the ends of a table by this fraction of its length, so that times that were added up step by step
-/// are not refused for their last digit. The motion coasts there.
+/// Fraction of a table's length by which a run may extend beyond it, so that summed times are not refused for rounding.
+/// The motion coasts there.
 const TIME_SLACK: f64 = 1e-9;
 
-/// How far within a step the accelerations at its ends are taken, s: at the end of one step as at the beginning of any other that the
-/// same instant ends.
+/// Time within a step at which the accelerations of its ends are evaluated, s: at the end of one step as at the
+/// beginning of the next.
 const WITHIN_S: f64 = 1e-10;
 
 impl VehiclePath {
@@ -104,7 +104,7 @@ impl VehiclePath {
         VehiclePath::Fixed(FixedPath::default())
     }
 
-    /// The path that a program's own vehicle model computes.
+    /// Path computed by a program's own vehicle model.
     pub fn own(motion: impl VehicleMotion + 'static) -> Self {
         VehiclePath::Own(OwnPath::new(motion))
     }
@@ -141,7 +141,7 @@ impl VehiclePath {
         }
     }
 
-    /// [`VehiclePath::motion`] with accelerations that are those within the step, where they jump at one of its ends.
+    /// [`VehiclePath::motion`] with the accelerations within the step, where they jump at one of its ends.
     pub fn motion_within(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let inwards_s = (step_middle_s - t_s).clamp(-WITHIN_S, WITHIN_S);
         let within = self.motion(t_s + inwards_s, step_middle_s, cursor);
@@ -152,8 +152,8 @@ impl VehiclePath {
         }
     }
 
-    /// Pose and motion at `t_s` for output, in space axes: as [`VehiclePath::motion`], but the accelerations of a table that is
-    /// read along straight lines, whose velocity jumps at its stations, are second differences of the stations.
+    /// Pose and motion at `t_s` for output, in space axes: as [`VehiclePath::motion`], but accelerations of a linearly
+    /// interpolated table, whose velocity jumps at its stations, are second differences of the stations.
     pub fn shown_motion(&self, t_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let motion = self.motion(t_s, t_s, cursor);
         match self {
@@ -198,8 +198,8 @@ impl VehiclePath {
         }
     }
 
-    /// Times at which velocity or acceleration jump, s, in increasing order: an integrator that lets its steps end there
-    /// keeps its order.
+    /// Times at which velocity or acceleration jumps, s, in increasing order: an integrator whose steps end there keeps
+    /// its order.
     pub fn breaks_s(&self) -> Vec<f64> {
         match self {
             VehiclePath::Table(table) => table.breaks_s(),
@@ -211,8 +211,7 @@ impl VehiclePath {
         }
     }
 
-    /// Times at which the path is given, s, in increasing order: stations, samples, corners. Between two of them it is
-    /// smooth.
+    /// Times at which the path is given, s, in increasing order: stations, samples, corners. Between them it is smooth.
     pub(crate) fn given_s(&self) -> Vec<f64> {
         match self {
             VehiclePath::Table(table) => table.stations().iter().map(|station| station.time_s).collect(),

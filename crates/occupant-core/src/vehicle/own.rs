@@ -10,18 +10,18 @@ use super::attitude::turning;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::PathProblem;
 
-/// The vehicle at one instant as a vehicle model knows it: place, roll, pitch and yaw with their first and second derivatives
-/// in time, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).
+/// State of the vehicle at one instant for a vehicle model: position, roll, pitch and yaw with their first and second
+/// time derivatives, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VehicleState {
-    /// Place and attitude.
+    /// Position and attitude.
     pub pose: VehiclePose,
     /// Velocity of the c.g., m/s.
     pub velocity_m_s: Vector3<f64>,
     /// Acceleration of the c.g., m/s².
     pub acceleration_m_s2: Vector3<f64>,
-    /// dφ/dt, dθ/dt, dψ/dt of roll, pitch and yaw, rad/s. A rate gyro in the vehicle reads something else as soon as the
-    /// vehicle rolls or pitches.
+    /// dφ/dt, dθ/dt, dψ/dt of roll, pitch and yaw, rad/s. They differ from the readings of a rate gyro once the vehicle
+    /// rolls or pitches.
     pub angle_rates_rad_s: Vector3<f64>,
     /// d²φ/dt², d²θ/dt², d²ψ/dt², rad/s².
     pub angle_accelerations_rad_s2: Vector3<f64>,
@@ -66,24 +66,24 @@ impl VehicleState {
 /// accelerations may jump, at the times of [`VehicleMotion::breaks_s`]. For the same bits on every machine use the
 /// sines of `occupant_units::trig`: those of the standard library differ in the last digit.
 pub trait VehicleMotion: Debug + Send + Sync {
-    /// The vehicle at `t_s`, a time within [`VehicleMotion::span_s`].
+    /// State of the vehicle at `t_s`, a time within [`VehicleMotion::span_s`].
     fn at(&self, t_s: f64) -> VehicleState;
 
-    /// First and last time for which there is an answer, s. A run that leaves them is refused.
+    /// First and last valid time, s. A run beyond them is refused.
     fn span_s(&self) -> (f64, f64) {
         (f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    /// Times at which an acceleration jumps, s: an integrator that lets its steps end there keeps its order.
+    /// Times at which an acceleration jumps, s: an integrator whose steps end there keeps its order.
     fn breaks_s(&self) -> Vec<f64> {
         Vec::new()
     }
 }
 
-/// More breaks than this are steps of a grid, not jumps.
+/// Largest number of breaks; more are steps of a grid, not jumps.
 const MOST_BREAKS: usize = 100_000;
 
-/// A path that a [`VehicleMotion`] computes. Two of them are equal if they are the same one, shared.
+/// Path computed by a [`VehicleMotion`]. Two are equal if they share one object.
 #[derive(Clone, Debug)]
 pub struct OwnPath(Arc<dyn VehicleMotion>);
 
@@ -106,7 +106,7 @@ impl OwnPath {
         if t_s == inside_s { motion } else { motion.coasted(t_s - inside_s) }
     }
 
-    /// Place and attitude at `t_s`, for output.
+    /// Position and attitude at `t_s`, for output.
     pub(crate) fn pose(&self, t_s: f64) -> VehiclePose {
         let inside_s = self.inside_s(t_s);
         let pose = self.0.at(inside_s).pose;

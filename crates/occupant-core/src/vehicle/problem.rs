@@ -2,25 +2,25 @@
 
 use std::fmt::Display;
 
-/// One thing that is wrong with a vehicle path, with what was found and what was expected.
+/// Problem of a vehicle path, with the value found and the value expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{found}, expected {expected}")]
 pub struct PathProblem {
-    /// The station, sample or point of a tabulated pulse that it is about, from 0; the words count them from 1.
+    /// Station, sample or point of a tabulated pulse, from 0; messages count from 1.
     pub station: Option<usize>,
-    /// What was found.
+    /// Value found.
     pub found: String,
-    /// What was expected, and how to mend it.
+    /// Value expected, and the remedy.
     pub expected: String,
 }
 
 impl PathProblem {
-    /// A problem of the path as a whole.
+    /// Problem of the path as a whole.
     pub(super) fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
         PathProblem { station: None, found: found.into(), expected: expected.into() }
     }
 
-    /// A problem of one station.
+    /// Problem of one station.
     pub(super) fn at(station: usize, found: impl Display, expected: impl Into<String>) -> Self {
         PathProblem {
             station: Some(station),
@@ -28,22 +28,22 @@ impl PathProblem {
         }
     }
 
-    /// A number that is not what it must be.
+    /// Invalid value of a quantity.
     pub(super) fn of_value(quantity: &str, value: f64, expected: &str) -> Self {
         PathProblem::new(format!("found {quantity} = {value}"), expected)
     }
 
-    /// A number that is infinite or not a number.
+    /// Number that is infinite or NaN.
     pub(super) fn not_finite(quantity: &str, value: f64) -> Self {
         PathProblem::of_value(quantity, value, FINITE)
     }
 
-    /// A table, a record or a tabulated pulse of fewer than two stations.
+    /// Table, record or tabulated pulse of fewer than two stations.
     pub(super) fn too_few_stations(count: usize) -> Self {
         PathProblem::new(format!("found {count} stations"), "at least 2")
     }
 
-    /// A number at a station that is infinite or not a number.
+    /// Number at a station that is infinite or NaN.
     pub(super) fn not_finite_at(station: usize, quantity: &str, value: f64) -> Self {
         PathProblem::at(station, format_args!("found {quantity} = {value}"), FINITE)
     }
@@ -58,8 +58,8 @@ pub(super) fn expect_finite(problems: &mut Vec<PathProblem>, quantity: &'static 
     }
 }
 
-/// Adds what is wrong with row `station` of numbers over time: those that are not finite or beyond `largest` in magnitude, and a
-/// time that is not after that of the row before.
+/// Adds the problems of row `station` of numbers over time: numbers that are not finite or beyond `largest` in
+/// magnitude, and a time that is not after that of the row before.
 pub(super) fn check_row(
     problems: &mut Vec<PathProblem>,
     station: usize,

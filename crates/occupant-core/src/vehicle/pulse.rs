@@ -20,35 +20,36 @@ use profile::Profile;
 use shape::expect_not_negative;
 pub use shape::{DecelerationPoint, PulseShape, Strength};
 
-/// Which way the vehicle travels.
+/// Direction of travel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum TravelDirection {
-    /// Along its own X axis, nose first.
+    /// Along the vehicle's X axis, nose first.
     #[default]
     Heading,
     /// Along this vector in vehicle-space axes, of any length above zero.
     Along(Vector3<f64>),
 }
 
-/// What the user says of a pulse.
+/// Input of a pulse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PulseDefinition {
-    /// Pose at t = 0; the attitude stays.
+    /// Pose at t = 0; the attitude is constant.
     pub initial: VehiclePose,
     /// Speed in the direction of travel up to the pulse, m/s, zero or more.
     pub initial_speed_m_s: f64,
     /// Direction of travel.
     pub direction: TravelDirection,
-    /// When the pulse starts, s, zero or later.
+    /// Start of the pulse, s, zero or later.
     pub starts_at_s: f64,
     /// Deceleration over time.
     pub shape: PulseShape,
-    /// Speed, m/s, at which the vehicle may be driven back; without it the vehicle stays where it stops.
+    /// Rebound speed, m/s, down to which the pulse may push the vehicle back; without it the vehicle stays at rest once
+    /// stopped.
     pub rebound_m_s: Option<f64>,
 }
 
 impl PulseDefinition {
-    /// A vehicle that travels nose first from the origin, meets the pulse at once and stays where it stops.
+    /// A vehicle that travels nose first from the origin, with the pulse from t = 0, and stays at rest once stopped.
     pub fn new(initial_speed_m_s: f64, shape: PulseShape) -> Self {
         PulseDefinition {
             initial: VehiclePose::default(),
@@ -61,7 +62,7 @@ impl PulseDefinition {
     }
 }
 
-/// When and where the vehicle comes to rest, for a moment or for good.
+/// Time and distance at which the vehicle comes to rest, momentarily or finally.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
     /// Time of the run, s.
@@ -70,20 +71,20 @@ pub struct Stop {
     pub distance_m: f64,
 }
 
-/// A vehicle path along a pulse, checked and ready to be asked.
+/// Path along a pulse, checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PulsePath {
     definition: PulseDefinition,
     /// Unit vector of travel in vehicle-space axes.
     direction: Vector3<f64>,
     profile: Profile,
-    /// When the deceleration begins, s.
+    /// Start of the deceleration, s.
     begin_s: f64,
     /// First time of zero speed after the deceleration began.
     stop: Option<Stop>,
-    /// From when on the speed is minus the rebound (zero without one) for good.
+    /// Time from which the speed stays at minus the rebound speed (zero without one).
     floor: Option<Stop>,
-    /// Pose, and everything else zero.
+    /// Pose, with zero velocities and accelerations.
     at_rest: FrameMotion,
     /// Unit vector of travel in space axes.
     direction_space: Vector3<f64>,
@@ -125,27 +126,27 @@ impl PulsePath {
         Ok(PulsePath { definition, direction, profile, begin_s, stop, floor, at_rest, direction_space })
     }
 
-    /// What the path was built from.
+    /// Definition of the path.
     pub fn definition(&self) -> &PulseDefinition {
         &self.definition
     }
 
-    /// When the deceleration begins and when the pulse has run out, s.
+    /// Start of the deceleration and end of the pulse, s.
     pub fn pulse_span_s(&self) -> (f64, f64) {
         (self.begin_s, self.begin_s + self.profile.duration_s())
     }
 
-    /// The deceleration of largest size that the pulse prescribes, with its sign, m/s².
+    /// Prescribed deceleration of largest magnitude, with its sign, m/s².
     pub fn peak_deceleration_m_s2(&self) -> f64 {
         self.profile.peak_m_s2()
     }
 
-    /// The change of velocity that the whole pulse prescribes, m/s; the vehicle may stop before.
+    /// Change of velocity prescribed by the whole pulse, m/s; the vehicle may stop earlier.
     pub fn pulse_delta_v_m_s(&self) -> f64 {
         self.profile.loss(self.profile.duration_s(), &mut PathCursor::default()).speed_m_s
     }
 
-    /// The change of velocity that the vehicle undergoes, m/s: initial minus final speed.
+    /// Actual change of velocity of the vehicle, m/s: initial minus final speed.
     pub fn delta_v_m_s(&self) -> f64 {
         match self.floor {
             Some(_) => self.definition.initial_speed_m_s + self.definition.rebound_m_s.unwrap_or(0.0),
@@ -153,7 +154,7 @@ impl PulsePath {
         }
     }
 
-    /// When and where the vehicle first comes to rest, if the pulse stops it.
+    /// First stop of the vehicle, if the pulse stops it.
     pub fn stop(&self) -> Option<Stop> {
         self.stop
     }
@@ -169,13 +170,13 @@ impl PulsePath {
         }
     }
 
-    /// Place and attitude at `t_s`, for output.
+    /// Position and attitude at `t_s`, for output.
     pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let initial = self.definition.initial;
         VehiclePose { position_m: initial.position_m + self.direction * self.travel(t_s, cursor).distance_m, ..initial }
     }
 
-    /// Times at which the acceleration, or its slope, jumps, s, in increasing order.
+    /// Times at which the acceleration or its slope jumps, s, in increasing order.
     pub(crate) fn breaks_s(&self) -> Vec<f64> {
         let (begin_s, end_s) = self.pulse_span_s();
         let mut breaks_s = match &self.profile {
@@ -190,7 +191,7 @@ impl PulsePath {
         breaks_s
     }
 
-    /// Distance from the place at t = 0, speed and acceleration in the direction of travel.
+    /// Distance from the position at t = 0, speed and acceleration in the direction of travel.
     fn travel(&self, t_s: f64, cursor: &mut PathCursor) -> Travel {
         let initial_m_s = self.definition.initial_speed_m_s;
         if let Some(floor) = self.floor.filter(|floor| t_s >= floor.time_s) {
@@ -214,7 +215,7 @@ struct Travel {
     acceleration_m_s2: f64,
 }
 
-/// Problems of a definition, its shape apart.
+/// Problems of a definition, without those of its shape.
 fn find_problems(definition: &PulseDefinition, problems: &mut Vec<PathProblem>) {
     expect_finite_pose(problems, &definition.initial);
     expect_not_negative(problems, "initial speed", definition.initial_speed_m_s);
@@ -233,7 +234,7 @@ fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {
     distance_m == 0.0 || after_m_s > before_m_s
 }
 
-/// A vehicle that starts at rest is stopped by the pulse before the pulse has set it going.
+/// A vehicle at rest that the pulse holds back before accelerating it.
 fn held_back(stop_s: f64) -> PathProblem {
     let found = format!(
         "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the vehicle stands \
@@ -244,7 +245,7 @@ fn held_back(stop_s: f64) -> PathProblem {
 }
 
 impl TravelDirection {
-    /// A vector of length one in vehicle-space axes; a problem if it has no length.
+    /// Unit vector in vehicle-space axes; a problem for a zero vector.
     pub(super) fn unit(self, initial: &VehiclePose, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
         let TravelDirection::Along(vector) = self else {
             return initial.attitude.matrix().column(0).into_owned();

@@ -30,22 +30,22 @@ use crash_measures::signal::ChannelClass;
 pub use record::{AccelerationRecord, DeltaVRecord, SensorRecord};
 use strapdown::{Piece, integrate};
 
-/// What gravity does in recorded accelerations.
+/// Gravity in recorded accelerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "schema", schemars(rename = "RecordedGravity"))]
 pub enum SensorGravity {
-    /// It is in them: a level vehicle at rest reads 1 g upwards.
+    /// Included: a level vehicle at rest reads 1 g upwards.
     Included,
-    /// The sensors were zeroed before the test, at rest in the initial attitude: they read 0 there, and gravity comes
-    /// in as the vehicle turns.
+    /// Zeroed before the test at rest in the initial attitude: the sensors read 0 there, and gravity appears as the
+    /// vehicle rotates.
     Zeroed,
-    /// It was taken out of them at every instant: a vehicle at rest reads 0 in any attitude.
+    /// Removed at every instant: a vehicle at rest reads 0 in any attitude.
     Removed,
 }
 
-/// What the user says of a record and of the vehicle at its start.
+/// Input of a record, and the initial state of the vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorDefinition {
     /// The record.
@@ -56,33 +56,33 @@ pub struct SensorDefinition {
     pub initial_speed_m_s: f64,
     /// Direction of that speed.
     pub direction: TravelDirection,
-    /// Where the sensors stand, from the c.g., in vehicle axes (x forward, y right, z down), m.
+    /// Position of the sensors from the c.g., in vehicle axes (x forward, y right, z down), m.
     pub offset_m: Vector3<f64>,
     /// Gravity in the accelerations; a velocity change has none.
     pub gravity: SensorGravity,
-    /// g where the record was made, m/s².
+    /// g at the place of the record, m/s².
     pub gravity_m_s2: f64,
-    /// Low-pass for all channels before they are integrated.
+    /// Low-pass filter of all channels before integration.
     pub filter: Option<ChannelClass>,
-    /// Length of the rest at the beginning of the record whose mean gives the sensors' zero errors, s.
+    /// Duration of rest at the beginning of the record whose mean gives the sensors' zero errors, s.
     pub baseline_s: Option<f64>,
-    /// Length of a rest at its end as well, s: the zero errors go along a straight line from one mean to the other.
+    /// Duration of rest at its end, s: zero errors are then linear between both means.
     pub baseline_end_s: Option<f64>,
-    /// What accelerations, without gravity, and changes of the rates are multiplied by; 1 leaves the motion as it was recorded.
+    /// Factor of accelerations, without gravity, and of changes of the rates; 1 leaves the recorded motion unchanged.
     pub strength: f64,
-    /// Time of the record at which the path starts and pose and speed hold, s; the first sample if none.
+    /// Time of the record at which the path starts, with the given pose and speed, s; the first sample if none.
     pub starts_at_s: Option<f64>,
-    /// What the vehicle does after the last sample.
+    /// Motion after the last sample.
     pub after: AfterEnd,
 }
 
-/// A vehicle path from recorded motion, integrated and ready to be asked.
+/// A vehicle path from recorded motion, integrated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorPath {
     definition: SensorDefinition,
     pieces: Vec<Piece>,
     end_s: f64,
-    /// Motion at the start and at the end, from which it coasts.
+    /// Motion at the start and at the end, from which the vehicle coasts.
     ends: [FrameMotion; 2],
     /// Roll, pitch and yaw at the end, and their rates in the last interval.
     last_attitude: Attitude,
@@ -114,7 +114,7 @@ impl SensorPath {
         Ok(SensorPath { definition, pieces, end_s, ends, last_attitude, last_rates_rad_s })
     }
 
-    /// What the path was built from.
+    /// Definition of the path.
     pub fn definition(&self) -> &SensorDefinition {
         &self.definition
     }
@@ -143,7 +143,7 @@ impl SensorPath {
         if holds && step_middle_s > last_s { motion.held() } else { motion }
     }
 
-    /// Place and attitude at `t_s`, for output.
+    /// Position and attitude at `t_s`, for output.
     pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let (first_s, last_s) = self.span_s();
         let near = if t_s < first_s {
@@ -165,7 +165,7 @@ impl SensorPath {
         self.definition.after.check_span(self.span_s(), start_s, end_s)
     }
 
-    /// The ends of the record, s. Between them velocity and angular velocity have no jump.
+    /// Ends of the record, s. Between them, velocity and angular velocity are continuous.
     pub(crate) fn breaks_s(&self) -> Vec<f64> {
         vec![self.pieces[0].start_s, self.end_s]
     }
@@ -180,7 +180,7 @@ impl SensorPath {
     }
 }
 
-/// Checks all of the definition but its record; the direction of travel in vehicle-space axes.
+/// Checks the definition except its record; returns the direction of travel in vehicle-space axes.
 fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
     expect_finite_pose(problems, &definition.initial);
     let names = ["offset x", "offset y", "offset z"];

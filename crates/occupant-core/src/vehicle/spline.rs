@@ -40,12 +40,12 @@ pub(super) fn linear_pieces(times_s: &[f64], values: &[Vector6<f64>]) -> Vec<Pie
     pieces(times_s, values, &vec![Vector6::zeros(); values.len()])
 }
 
-/// How a spline ends.
+/// End condition of a spline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
-    /// Without curvature.
+    /// Zero curvature.
     Natural,
-    /// At rest: what is held there does not jump.
+    /// Zero velocity: a vehicle or panel held there does not jump.
     AtRest,
 }
 

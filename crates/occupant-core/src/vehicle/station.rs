@@ -8,12 +8,12 @@ use super::VehiclePose;
 use super::attitude::Attitude;
 use super::problem::{PathProblem, check_row};
 
-/// Place and attitude of the vehicle at one time.
+/// Position and attitude of the vehicle at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// Time, s.
     pub time_s: f64,
-    /// Where the vehicle is; its angles run on past a whole turn (unwrapped).
+    /// Pose; its angles continue beyond ±180° (unwrapped).
     pub pose: VehiclePose,
 }
 
@@ -31,20 +31,20 @@ impl Station {
     }
 }
 
-/// The largest magnitude of a time, place or angle, s, m and rad: places beyond it lose the digits that forces are made of.
+/// Largest magnitude of a time, position or angle, s, m and rad: positions beyond it lose the digits that forces need.
 const LARGEST: f64 = 1e8;
 
 const COLUMNS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 
-/// Adds whole turns (or the other name of the same attitude) to the angles of `stations`, so that each is nearest to the
-/// one before it. For tables whose angles were written between −180° and 180°.
+/// Adds multiples of 360° (or takes the equivalent attitude) to the angles of `stations`, so that each is nearest to
+/// the one before it. For tables with angles between −180° and 180°.
 pub fn unwrap_angles(stations: &mut [Station]) {
     for i in 1..stations.len() {
         stations[i].pose.attitude = stations[i].pose.attitude.unwrapped_after(&stations[i - 1].pose.attitude);
     }
 }
 
-/// Everything that is wrong with `stations`, in their order.
+/// All problems of `stations`, in their order.
 pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
     let mut problems = Vec::new();
     if stations.len() < 2 {
@@ -62,7 +62,7 @@ pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
     problems
 }
 
-/// Problems of a station only in the light of the one before it.
+/// Problems of a station relative to the one before it.
 fn compare_with_previous(station: usize, previous: &Station, here: &Station, problems: &mut Vec<PathProblem>) {
     let (before, now) = (previous.channels(), here.channels());
     let length_s = here.time_s - previous.time_s;

@@ -12,26 +12,27 @@ use super::spline::{End, Piece, linear_pieces, spline_pieces};
 use super::station::{Station, problems_of};
 use super::{TIME_SLACK, VehiclePose, VehicleState};
 
-/// How a table is read between its times.
+/// Interpolation of a table between its times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "schema", schemars(rename = "Interpolate"))]
 pub enum Interpolation {
-    /// Straight lines, as in the report; velocities jump at every time.
+    /// Linear, as in the report; velocities jump at every time.
     Linear,
-    /// Cubic splines; they end without curvature, or at rest where the vehicle or panel is held after the last time.
+    /// Cubic spline, with zero curvature at its ends, or zero velocity where the vehicle or panel is held after the
+    /// last time.
     #[default]
     Spline,
 }
 
-/// What the vehicle does after the last time of a table.
+/// Motion after the last time of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "schema", schemars(rename = "After"))]
 pub enum AfterEnd {
-    /// A run that continues is refused.
+    /// None: a longer run is refused.
     #[default]
     Error,
     /// It continues with constant velocity.
@@ -41,7 +42,7 @@ pub enum AfterEnd {
 }
 
 impl AfterEnd {
-    /// How a spline ends that is followed by this.
+    /// End condition of a spline that is followed by this.
     fn end(self) -> End {
         if self == AfterEnd::Hold { End::AtRest } else { End::Natural }
     }
@@ -67,16 +68,16 @@ impl AfterEnd {
     }
 }
 
-/// A vehicle path through stations, checked and ready to be asked.
+/// A vehicle path through stations, checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TablePath {
     stations: Vec<Station>,
     interpolation: Interpolation,
     after: AfterEnd,
     pieces: Vec<Piece>,
-    /// Of straight lines alone.
+    /// For linear interpolation only.
     differences: Option<Differences>,
-    /// Motion at the first and at the last station, from which it coasts.
+    /// Motion at the first and at the last station, from which the vehicle coasts.
     ends: [FrameMotion; 2],
     /// Roll, pitch and yaw rates at the last station, rad/s.
     last_rates_rad_s: Vector3<f64>,
@@ -131,12 +132,12 @@ impl TablePath {
         &self.stations
     }
 
-    /// How the table is read between them.
+    /// Interpolation between them.
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
 
-    /// What the vehicle does after the last one.
+    /// Motion after the last one.
     pub fn after(&self) -> AfterEnd {
         self.after
     }
@@ -174,7 +175,7 @@ impl TablePath {
         if self.after == AfterEnd::Hold && step_middle_s > last_s { motion.held() } else { motion }
     }
 
-    /// The motion at `t_s` with accelerations that are differences, where the table is read along straight lines.
+    /// The motion at `t_s` with accelerations by differences, for linear interpolation.
     pub(super) fn with_differences(&self, t_s: f64, motion: FrameMotion, cursor: &mut PathCursor) -> FrameMotion {
         let Some(differences) = &self.differences else { return motion };
         let (first_s, last_s) = self.span_s();
@@ -187,7 +188,7 @@ impl TablePath {
         FrameMotion { acceleration_m_s2, angular_acceleration_rad_s2, ..motion }
     }
 
-    /// Place and attitude at `t_s` as the table tells them, for output.
+    /// Position and attitude at `t_s` from the table, for output.
     pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let (first_s, last_s) = self.span_s();
         let inside_s = t_s.clamp(first_s, last_s);

@@ -4,24 +4,25 @@ use nalgebra::Vector3;
 
 use super::{Interpolation, PathCursor, VehiclePath};
 
-/// The motion is looked at so often, s (ours).
+/// Interval between evaluations of the motion, s (ours).
 const LOOK_S: f64 = 5e-5;
-/// So often at most: 500 s.
+/// Largest number of evaluations: 500 s.
 const MOST_LOOKS: f64 = 1e7;
 
-/// How often a span is looked at after its start.
+/// Number of evaluations of a span after its start.
 fn looks([start_s, end_s]: [f64; 2]) -> u64 {
     ((end_s - start_s) / LOOK_S).clamp(0.0, MOST_LOOKS) as u64
 }
 
 impl VehiclePath {
-    /// Whether its accelerations are known: a table that is read along straight lines has none.
+    /// Whether its accelerations are known: a linearly interpolated table has none.
     pub fn has_accelerations(&self) -> bool {
         !matches!(self, VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear)
     }
 
-    /// The first time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor, or along `way`, a unit
-    /// vector in its axes, has been at least `threshold_m_s2` for `for_s` without a break; none if it never is within the first 500 s.
+    /// First time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor, or along
+    /// the unit vector `way` in its axes, has been at least `threshold_m_s2` for `for_s` without interruption; none
+    /// within the first 500 s.
     pub fn jolt_s(&self, span_s: [f64; 2], way: Option<Vector3<f64>>, threshold_m_s2: f64, for_s: f64) -> Option<f64> {
         let start_s = span_s[0];
         let mut cursor = PathCursor::default();
@@ -45,8 +46,8 @@ impl VehiclePath {
         None
     }
 
-    /// The first time of a span, s, at which the change of speed along the vehicle's floor has reached `threshold_m_s` since
-    /// its acceleration last rose above `wake_m_s2`; none if it never does within the first 500 s.
+    /// First time of a span, s, at which the change of velocity along the vehicle's floor has reached `threshold_m_s`
+    /// since the acceleration last rose above `wake_m_s2`; none within the first 500 s.
     pub fn change_s(&self, span_s: [f64; 2], threshold_m_s: f64, wake_m_s2: f64) -> Option<f64> {
         let start_s = span_s[0];
         let mut cursor = PathCursor::default();

@@ -1,21 +1,21 @@
 //! Defaults: the channels of plots, of the page and of bands over time, and the figures of studies. Each list is here
 //! once, in the order of display.
 
-/// Channels by pattern ([`star`](occupant_core::results::channel::star)), each with the name of its curve, in which `*` is what the star stands
-/// for.
+/// Channels by pattern ([`star`](occupant_core::results::channel::star)), each with the name of its curve, in which `*`
+/// is replaced by the matched text.
 pub type Curves = [(&'static str, &'static str)];
 
-/// What the accelerometers of a dummy read.
+/// Accelerometer readings of a dummy.
 pub const ACCELERATIONS: &Curves = &[
     ("head.acceleration.resultant", "head"),
     ("upper_torso.acceleration.resultant", "chest"),
     ("lower_torso.acceleration.resultant", "pelvis"),
 ];
-/// Loop forces and tensions of straps.
+/// Forces of loop belts and tensions of straps.
 pub const WEBBING: &Curves = &[("belt.*.force", "*"), ("strap.*.force", "*")];
 /// Forces on all contact spheres.
 pub const CONTACTS: &Curves = &[("sphere.*.force.resultant", "*")];
-/// Forces on those that are loaded most in frontal crashes.
+/// Forces on the spheres loaded most in frontal crashes.
 pub const FRONTAL_CONTACTS: &Curves = &[
     ("sphere.head.force.resultant", "head"),
     ("sphere.chest.force.resultant", "chest"),
@@ -27,12 +27,12 @@ pub const NECK_FORCE: &Curves =
     &[("neck.force.x", "shear x"), ("neck.force.y", "shear y"), ("neck.force.z", "axial z")];
 /// Moment of the neck on the head.
 pub const NECK_MOMENT: &Curves = &[("neck.moment.x", "x"), ("neck.moment.y", "y, + flexion"), ("neck.moment.z", "z")];
-/// Axial forces of the thighs.
+/// Axial forces of the femurs.
 pub const FEMURS: &Curves = &[("left_femur.axial", "left"), ("right_femur.axial", "right")];
 /// The vehicle's motion.
 pub const VEHICLE: &Curves =
     &[("vehicle.acceleration.x", "x"), ("vehicle.acceleration.y", "y"), ("vehicle.acceleration.z", "z")];
-/// Where the energy is, or went: first what matters most.
+/// Energies, stored and dissipated, the most important first.
 pub const ENERGIES: &Curves = &[
     ("energy.kinetic_relative", "kinetic, relative to the vehicle"),
     ("energy.contacts", "stored in contacts"),
@@ -43,17 +43,17 @@ pub const ENERGIES: &Curves = &[
     ("energy.lost_belts", "lost in belts"),
     ("energy.spine", "spine springs"),
 ];
-/// The same of one of several bodies.
+/// Energies of one of several bodies.
 pub const ENERGIES_OF_BODY: &Curves = &[
     ("energy.kinetic", "kinetic, in space"),
     ("energy.elements", "stored in and lost by force elements"),
     ("energy.vehicle_work", "work of vehicles"),
     ("energy.others_work", "work of other bodies"),
 ];
-/// How far the energies are from a balance.
+/// Error of the energy balance.
 pub const BALANCE: &Curves = &[("energy.balance", "imbalance")];
 
-/// Patterns of the channels whose bands over time are looked at.
+/// Channels with bands over time by default, as patterns.
 pub const BANDS: [&Curves; 6] = [
     ACCELERATIONS,
     WEBBING,
@@ -63,7 +63,7 @@ pub const BANDS: [&Curves; 6] = [
     &[("sphere.head.position.x", ""), ("sphere.head.position.y", ""), ("sphere.head.position.z", "")],
 ];
 
-/// Patterns of the figures that studies report on, most telling first; the first four exist in rear impacts alone.
+/// Results reported by studies, as patterns, the most important first; the first four exist in rear impacts only.
 pub const FIGURES: [&str; 16] = [
     "nic",
     "nkm",

@@ -5,44 +5,44 @@ use std::path::Path;
 
 use occupant_scenario::ending::Unrecorded;
 
-/// A command that ran to its end.
+/// Outcome of a completed command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Done {
-    /// All is well: exit code 0.
+    /// Success: exit code 0.
     Well,
-    /// It ran, and a check failed: exit code 1. The message has been written.
+    /// A check failed: exit code 1. The message has been printed.
     Unwell,
 }
 
 impl From<()> for Done {
-    /// Of a command that checks nothing.
+    /// Outcome of a command without checks.
     fn from((): ()) -> Self {
         Done::Well
     }
 }
 
-/// Why a command could not do its work.
+/// Reason why a command failed.
 #[derive(Debug)]
 pub enum Failure {
-    /// It could not run: exit code 2.
+    /// It could not start: exit code 2.
     CouldNotRun(String),
-    /// It ran and broke off: exit code 1.
+    /// It was aborted: exit code 1.
     BrokeOff(String),
 }
 
 impl Failure {
-    /// Could not run, in the form of every message: what is wrong, and how to mend it.
+    /// Could not start; the usual message: what is wrong, and how to correct it.
     pub fn with_help(found: impl Into<String>, help: &str) -> Self {
         Failure::CouldNotRun(format!("error: {}\n = help: {help}", found.into()))
     }
 
-    /// Could not run: the ending of an output names no kind of file that it can be.
+    /// Could not start: the extension of an output is not one of `endings`.
     pub fn ending(output: &Path, endings: &str) -> Self {
         let name = output.display();
         Failure::with_help(format!("-o {name}: unknown file format"), &format!("use the extension {endings}"))
     }
 
-    /// The same, and what was done before.
+    /// The same with a note on what was done before.
     pub fn with_done(self, done: &str) -> Self {
         let longer = |message| format!("{message}\n = done: {done}");
         match self {
@@ -51,19 +51,19 @@ impl Failure {
         }
     }
 
-    /// Its words.
+    /// Its message.
     pub fn words(self) -> String {
         match self {
             Failure::CouldNotRun(words) | Failure::BrokeOff(words) => words,
         }
     }
 
-    /// Ran and broke off.
+    /// Aborted while running.
     pub fn broke_off(reason: impl Display) -> Self {
         Failure::BrokeOff(format!("error: {reason}"))
     }
 
-    /// Could not run.
+    /// Could not start.
     pub fn plain(found: impl Into<String>) -> Self {
         Failure::CouldNotRun(format!("error: {}", found.into()))
     }

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::names::ending;
 
-/// Megabytes that a table may have: what it is read into takes up to thirty times as much.
+/// Largest table, MB: reading takes up to thirty times as much memory.
 const MOST_OF_TABLE: u64 = 32;
-/// The same of a scenario or study, of which `{a.b=1},` takes up to five hundred times as much.
+/// Largest scenario or study, MB: `{a.b=1},` takes up to five hundred times as much.
 const MOST_OF_SCENARIO: u64 = 2;
-/// The same of a deck, of which an empty line takes a hundred times as much.
+/// Largest deck, MB: an empty line takes a hundred times as much.
 const MOST_OF_DECK: u64 = 4;
 
 /// The bytes of a file.
@@ -22,7 +22,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     bytes(path).map_err(|error| Failure::plain(format!("{} cannot be read: {error}", path.display())))
 }
 
-/// The bytes of a file that a user or a text names, of `-` those of standard input. Results may be of any size.
+/// Bytes of a file named by a user or a text; `-` is standard input. Results may have any size.
 ///
 /// # Errors
 /// An error of the operating system; what is no ordinary file, such as a pipe that nobody may ever write into or a device
@@ -50,7 +50,7 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-/// What stands in a folder, sorted.
+/// Entries of a folder, sorted.
 ///
 /// # Errors
 /// An error of the operating system.
@@ -60,7 +60,7 @@ pub fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// The bytes of a deck, or of what else stands in its place by its ending.
+/// Bytes of a deck, or of another input by its extension.
 ///
 /// # Errors
 /// A file that cannot be read, as [`bytes`] says; a text that is too long for a deck.
@@ -71,7 +71,7 @@ pub fn deck(path: &Path) -> Result<Vec<u8>, Failure> {
     fits.map(|()| bytes).map_err(|error| Failure::plain(format!("{} is not a deck: {error}", path.display())))
 }
 
-/// Refuses the text of a scenario that is too long.
+/// Refuses a scenario text that is too long.
 ///
 /// # Errors
 /// How long it is, and how long it may be.
@@ -87,12 +87,12 @@ fn within(size: u64, most: u64) -> io::Result<()> {
     Err(io::Error::new(ErrorKind::InvalidData, format!("it has {size:.1} MB; the limit for such a file is {most} MB")))
 }
 
-/// What comes out of a pipe, until all who write it have closed it; `most` in MB.
+/// Bytes from a pipe until all writers have closed it; `most` in MB.
 fn read_pipe(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     read_all(fs::File::open(path)?, most)
 }
 
-/// Whether a name is that of standard input.
+/// Whether a name means standard input.
 pub fn is_input(path: &Path) -> bool {
     path == Path::new("-")
 }
@@ -107,7 +107,7 @@ fn read_all(from: impl Read, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Whether it is a pipe that this process was given, such as `<(command)` of a shell: somebody writes it.
+/// Whether it is a pipe given to this process, such as `<(command)` of a shell.
 #[cfg(unix)]
 fn is_open_pipe(path: &Path, found: &fs::Metadata) -> bool {
     use std::os::unix::fs::FileTypeExt;

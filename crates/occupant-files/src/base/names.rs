@@ -13,7 +13,7 @@ pub fn file_name(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// A word as a shell takes it: in quotes where it holds anything that a shell would take apart or replace.
+/// A word for a shell: quoted if it contains characters that a shell would interpret.
 pub fn quoted(word: impl std::fmt::Display) -> String {
     let word = word.to_string();
     let is_plain = |c: char| c.is_alphanumeric() || "_./-+=:@%,".contains(c);
@@ -25,29 +25,29 @@ pub fn quoted(word: impl std::fmt::Display) -> String {
     format!("'{dashed}{}'", word.replace('\'', r"'\''"))
 }
 
-/// The ending of a file's name in small letters, without its dot; empty if it has none.
+/// File extension in lower case, without its dot; empty if there is none.
 pub fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
-/// What the ending of a file's name stands for in a table; none for another ending.
+/// The entry of a table for a file's extension; none for another one.
 pub fn by_ending<T: Copy>(path: &Path, kinds: &[(&str, T)]) -> Option<T> {
     let ending = ending(path);
     kinds.iter().find(|(known, _)| *known == ending).map(|(_, kind)| *kind)
 }
 
-/// Whether a file's name is that of a page.
+/// Whether a file name has the extension of a page.
 pub fn is_page(path: &Path) -> bool {
     matches!(ending(path).as_str(), "html" | "htm")
 }
 
-/// A name that can be that of a file.
+/// A valid file name made from a name.
 pub fn file_stem(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' };
     name.chars().map(plain).collect()
 }
 
-/// Whether a name that a file tells leads to somewhere within a folder, and not out of it again.
+/// Whether a path read from a file stays inside a folder.
 pub fn stays_within(name: &str) -> bool {
     !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
 }

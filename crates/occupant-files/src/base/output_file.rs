@@ -14,61 +14,61 @@ use super::failure::Failure;
 /// Treatment of existing files with the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// They are left alone and ours is refused.
+    /// They are kept, and writing is refused.
     Keep,
     /// They are replaced.
     Replace,
 }
 
 impl Existing {
-    /// As `--force` asks.
+    /// As given by `--force`.
     pub fn by(force: bool) -> Self {
         if force { Existing::Replace } else { Existing::Keep }
     }
 }
 
-/// A file under its provisional name, buffered. Dropped before it is complete, it is taken away.
+/// A file under its temporary name, buffered. Dropped before completion, it is removed.
 #[derive(Debug)]
 pub struct PartialFile {
-    /// The name asked for.
+    /// The requested name.
     target: PathBuf,
-    /// Where it leads.
+    /// Its path, with links resolved.
     place: PathBuf,
     partial: PathBuf,
     existing: Existing,
-    /// Whether it is of use although it is not complete.
+    /// Whether it is kept even if incomplete.
     stays: bool,
     writer: BufWriter<File>,
 }
 
-/// Why a results file cannot be made.
+/// Reason why a result file cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum FileProblem {
-    /// It is there, and is not to be replaced.
+    /// It exists, and must not be replaced.
     #[error("{} exists; replace it with --force, or choose another name with -o", .path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
-    /// A provisional file is there.
+    /// A temporary file exists.
     #[error("{} exists: a run that was interrupted or is still running; replace it with --force, or choose another name with -o", .path.display())]
     PartialExists {
-        /// The provisional file.
+        /// The temporary file.
         path: PathBuf,
     },
-    /// Something that is no ordinary file has that name: a folder, a device.
+    /// The name belongs to something other than an ordinary file: a folder, a device.
     #[error("{} is not an ordinary file; choose another name with -o", .path.display())]
     NotAFile {
-        /// What has that name.
+        /// Its path.
         path: PathBuf,
     },
-    /// The run reads it.
+    /// It is an input of the run.
     #[error("{} is an input of the command and is not replaced; choose another name with -o", .path.display())]
     IsInput {
         /// The file.
         path: PathBuf,
     },
-    /// Somebody has removed it, or put another in its place.
+    /// It was removed or replaced while being written.
     #[error("{} was removed or replaced while it was being written", .path.display())]
     Gone {
         /// The file.
@@ -77,11 +77,11 @@ pub enum FileProblem {
     /// An error of the operating system.
     #[error("cannot {doing} {}: {source}", .path.display())]
     Io {
-        /// What was tried.
+        /// The operation that failed.
         doing: &'static str,
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The error.
         source: io::Error,
     },
 }
@@ -94,7 +94,7 @@ impl From<FileProblem> for Failure {
 }
 
 impl FileProblem {
-    /// Whether the file was begun, or there is no room for it: then there was something to write.
+    /// Whether writing had begun, or failed for lack of space: there were results to write.
     pub fn broke_off(&self) -> bool {
         use ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
         match self {
@@ -108,7 +108,7 @@ impl FileProblem {
     }
 }
 
-/// Refuses a target that is, under whatever name, a file that the run reads.
+/// Refuses a target that is an input of the run, under whatever name.
 ///
 /// # Errors
 /// [`FileProblem::IsInput`].
@@ -119,10 +119,10 @@ pub fn refuse_input(target: &Path, input: &Path) -> Result<(), FileProblem> {
     taken.map_or(Ok(()), |path| Err(FileProblem::IsInput { path }))
 }
 
-/// Links that lead to one another are followed so far.
+/// Largest number of links followed.
 const MOST_LINKS: usize = 40;
 
-/// Where a name leads.
+/// Path of a target, with links resolved.
 ///
 /// # Errors
 /// To something that is no ordinary file.
@@ -152,7 +152,7 @@ pub fn remove_if_there(path: &Path) -> Result<(), FileProblem> {
 }
 
 impl PartialFile {
-    /// Begins the file that will be `target`.
+    /// Creates the temporary file that will become `target`.
     ///
     /// # Errors
     /// A file is there and may not be replaced; an error of the operating system.
@@ -172,18 +172,18 @@ impl PartialFile {
         Ok(PartialFile { target, place, partial, existing, stays: false, writer })
     }
 
-    /// The file stays under its provisional name also if it is not completed.
+    /// Keeps the file under its temporary name even if it is not completed.
     pub fn that_stays(mut self) -> Self {
         self.stays = true;
         self
     }
 
-    /// The provisional name.
+    /// The temporary name.
     pub fn partial_path(&self) -> &Path {
         &self.partial
     }
 
-    /// Gives the complete file its name, safe against a loss of power.
+    /// Renames the complete file, durably (it survives a power failure).
     ///
     /// # Errors
     /// A file of that name has come meanwhile and may not be replaced; an error of the operating system. The file then keeps
@@ -203,7 +203,7 @@ impl PartialFile {
         Ok(target.clone())
     }
 
-    /// Leaves the file under its provisional name, safe against a loss of power, and gives the name.
+    /// Keeps the file under its temporary name, durably, and returns that name.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -230,7 +230,7 @@ impl Drop for PartialFile {
     }
 }
 
-/// A new file of this name, locked to tell others that it is being written.
+/// Creates a new file, locked to show others that it is being written.
 fn made(path: &Path) -> io::Result<File> {
     let file = File::create_new(path)?;
     match file.try_lock() {
@@ -241,7 +241,7 @@ fn made(path: &Path) -> io::Result<File> {
     }
 }
 
-/// What an interrupted run has left under this name, emptied.
+/// The leftover file of an interrupted run, emptied.
 fn taken_over(name: &Path) -> io::Result<File> {
     let left = OpenOptions::new().write(true).open(name)?;
     if left.try_lock().is_err() || !is_at(&left, name) {
@@ -250,7 +250,7 @@ fn taken_over(name: &Path) -> io::Result<File> {
     left.set_len(0).map(|()| left)
 }
 
-/// Makes a provisional file or folder for `place`; where others may be replaced under the first name that is free.
+/// Creates a temporary file or folder for `place`; if others may be replaced, under the first free name.
 ///
 /// # Errors
 /// It exists and may not be replaced; an error of the operating system.
@@ -278,10 +278,10 @@ pub fn begun<T>(
     }
 }
 
-/// Provisional names of one file.
+/// Largest number of temporary names of one file.
 const MOST_AT_WORK: usize = 1000;
 
-/// Whether the file is the one of this name.
+/// Whether the open file is the one with this name.
 #[cfg(unix)]
 pub fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -290,13 +290,13 @@ pub fn is_at(file: &File, path: &Path) -> bool {
     here.is_ok_and(|here| file.metadata().map(identity).is_ok_and(|own| own == here))
 }
 
-/// Whether the file is the one of this name; where that cannot be known, whether there is one.
+/// Whether the open file is the one with this name; where unknown, whether one exists.
 #[cfg(not(unix))]
 pub fn is_at(_file: &File, path: &Path) -> bool {
     path.exists()
 }
 
-/// Gives a file a name that is free, and only then.
+/// Renames a file only if the name is free.
 fn name_anew(partial: &Path, place: &Path) -> io::Result<()> {
     match fs::hard_link(partial, place) {
         Ok(()) => fs::remove_file(partial),
@@ -322,13 +322,13 @@ impl Seek for PartialFile {
         self.writer.seek(to)
     }
 
-    /// Without writing out the buffer.
+    /// Position without flushing the buffer.
     fn stream_position(&mut self) -> io::Result<u64> {
         self.writer.stream_position()
     }
 }
 
-/// Writes a file of results that carries its name only when it is complete.
+/// Writes a result file under a temporary name and renames it when complete.
 ///
 /// # Errors
 /// A file is there and may not be replaced; an error of the operating system.
@@ -336,7 +336,7 @@ pub fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     Ok(write_whole(path, Existing::by(force), bytes).map(|_| ())?)
 }
 
-/// As [`publish`], with the reason alone.
+/// As [`publish`], with a plain error.
 ///
 /// # Errors
 /// As [`publish`].
@@ -351,7 +351,7 @@ pub fn partial_path(target: &Path) -> PathBuf {
     with_word(target, ".partial")
 }
 
-/// The name with a word before its ending.
+/// The name with a word inserted before its extension.
 pub fn with_word(target: &Path, word: &str) -> PathBuf {
     let mut name = OsString::from(target.file_stem().unwrap_or_default());
     name.push(word);
@@ -362,7 +362,7 @@ pub fn with_word(target: &Path, word: &str) -> PathBuf {
     target.with_file_name(name)
 }
 
-/// Makes the new name last. Where folders cannot be synced the rename stands all the same, so a failure is no error.
+/// Makes the rename durable. A failure is ignored, as some systems cannot sync folders.
 fn sync_folder(target: &Path) {
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty());
     if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {

@@ -20,12 +20,12 @@ const STRUCT: u32 = 2;
 const CHAR: u32 = 4;
 const DOUBLES: u32 = 6;
 
-/// Letters of a name, and of the room for one with the zero at its end.
+/// Largest length of a name, and of its field with the final zero.
 const LONGEST_NAME: usize = 63;
 const NAME_ROOM: usize = LONGEST_NAME + 1;
-/// Letters of the text before everything.
+/// Length of the header text.
 const TEXT: usize = 116;
-/// MATLAB reads no greater variable from such a file.
+/// Largest variable that MATLAB reads from such a file, bytes.
 const MOST_BYTES: usize = 1 << 31;
 
 pub(super) fn bytes(sheets: &[Sheet]) -> io::Result<Vec<u8>> {
@@ -50,7 +50,7 @@ pub(super) fn bytes(sheets: &[Sheet]) -> io::Result<Vec<u8>> {
     Ok(out)
 }
 
-/// Names that variables may have: letters, digits and `_`, a letter first, each once.
+/// Valid variable names: letters, digits and `_`, a letter first, unique.
 fn names(columns: &[Column]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for (number, column) in (1..).zip(columns) {
@@ -91,8 +91,8 @@ fn variable(name: &str, values: &Values) -> Vec<u8> {
     }
 }
 
-/// A text; its size counts letters, not bytes. Readers count a letter beyond the Basic Multilingual Plane as one or as two, and
-/// refuse the file where they disagree with it: U+FFFD stands for it.
+/// A text with its size in characters, not bytes. Readers disagree on characters beyond the Basic Multilingual Plane
+/// and refuse the file: they are replaced by U+FFFD.
 fn letters(text: &str) -> Vec<u8> {
     let plain = |c: char| if c.len_utf16() == 1 { c } else { char::REPLACEMENT_CHARACTER };
     let text: String = text.chars().map(plain).collect();
@@ -100,7 +100,7 @@ fn letters(text: &str) -> Vec<u8> {
     matrix("", CHAR, sizes, &element(UTF8, text.as_bytes()))
 }
 
-/// An array: what it is, its sizes, its name, its content.
+/// An array: class, sizes, name, content.
 fn matrix(name: &str, class: u32, sizes: [usize; 2], content: &[u8]) -> Vec<u8> {
     let flags: Vec<u8> = [class, 0].iter().flat_map(|x| x.to_le_bytes()).collect();
     let sizes: Vec<u8> = sizes.iter().flat_map(|n| (*n as i32).to_le_bytes()).collect();
@@ -108,7 +108,7 @@ fn matrix(name: &str, class: u32, sizes: [usize; 2], content: &[u8]) -> Vec<u8> 
     element(MATRIX, &[&head, content].concat())
 }
 
-/// Data with their type and size, up to a multiple of eight bytes; those of four bytes at most in the short form.
+/// A data element with type and size, padded to a multiple of eight bytes; up to four bytes in the short form.
 fn element(of: u32, data: &[u8]) -> Vec<u8> {
     let size = data.len() as u32;
     let tag = match data.len() {

@@ -22,7 +22,7 @@ struct Column {
 
 #[derive(Clone, Debug)]
 enum Values {
-    /// NaN where there is none.
+    /// Numbers; NaN where missing.
     Numbers(Vec<f64>),
     Texts(Vec<String>),
 }
@@ -57,7 +57,7 @@ impl Sheet {
     }
 }
 
-/// The file of these tables.
+/// The file with these tables.
 ///
 /// # Errors
 /// More than such a file can hold.

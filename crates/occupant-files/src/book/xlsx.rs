@@ -11,7 +11,7 @@ use placed_text::shortened;
 use super::{Sheet, Values};
 use crate::base::escape;
 
-/// Rows with the headings, columns, and characters of a cell that spreadsheets take.
+/// Limits of spreadsheets: rows including headings, columns, characters of a cell.
 const MOST_ROWS: usize = 1_048_576;
 const MOST_COLUMNS: usize = 16_384;
 const MOST_LETTERS: usize = 32_767;
@@ -82,17 +82,17 @@ fn write_sheet(to: &mut impl Write, sheet: &Sheet) -> io::Result<()> {
     write!(to, "</row></sheetData></worksheet>")
 }
 
-/// A cell with a text: never a formula.
+/// A text cell, never a formula.
 fn text(to: &mut impl Write, text: &str) -> io::Result<()> {
     let text = escape(&shortened(text, MOST_LETTERS));
     write!(to, "<c t=\"inlineStr\"><is><t xml:space=\"preserve\">{text}</t></is></c>")
 }
 
-/// A ZIP archive in the making.
+/// A ZIP archive under construction.
 #[derive(Default)]
 struct Archive {
     bytes: Vec<u8>,
-    /// What stands at its end about each file.
+    /// Central directory.
     directory: Vec<u8>,
     files: u16,
 }
@@ -127,12 +127,12 @@ impl Archive {
     }
 }
 
-/// A size as an archive tells it.
+/// A size as a field of the archive.
 fn size(bytes: usize) -> io::Result<u32> {
     u32::try_from(bytes).map_err(|_| io::Error::other("a sheet of more than 4 GiB"))
 }
 
-/// What is written is packed, counted and summed.
+/// Compresses, counts and checksums the data.
 struct Counted {
     to: DeflateEncoder<Vec<u8>>,
     sum: Hasher,

@@ -4,14 +4,14 @@ use std::str::FromStr;
 
 use crash_measures::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc};
 
-/// The filter asked for.
+/// The requested filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
     /// No filter.
     None,
-    /// This class for all.
+    /// One class for all channels.
     Class(ChannelClass),
-    /// Each channel the class that SAE J211 gives its quantity.
+    /// The SAE J211 class of each channel's quantity.
     J211,
 }
 
@@ -41,7 +41,7 @@ impl FromStr for Filter {
 }
 
 impl Filter {
-    /// The class for a channel; none if it stays as it is.
+    /// Class of a channel; none if it stays unfiltered.
     pub fn class_of(self, channel: &str) -> Option<ChannelClass> {
         match self {
             Filter::None => None,
@@ -50,7 +50,7 @@ impl Filter {
         }
     }
 
-    /// In words.
+    /// Description.
     pub fn words(self) -> String {
         match self {
             Filter::None => "none".to_owned(),
@@ -78,7 +78,7 @@ fn j211_class(channel: &str) -> Option<ChannelClass> {
     }
 }
 
-/// A channel filtered, and what to say if its samples are sparser than SAE J211 asks for.
+/// A filtered channel, with a remark if its samples are sparser than SAE J211 requires.
 ///
 /// # Errors
 /// Samples too far apart for the class, or not finite.

@@ -10,7 +10,7 @@ use super::{Column, Filter, Histories, filtered};
 use crate::base::Failure;
 use crate::results::Results;
 
-/// What is done to histories, in this order: filter, resample.
+/// Processing of histories: filter, then resample.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct Treatment {
@@ -29,7 +29,7 @@ pub struct Treatment {
 }
 
 impl Treatment {
-    /// The filter in words.
+    /// Description of the filter.
     pub fn words(self) -> String {
         match self.filter {
             Filter::None => "none".to_owned(),
@@ -56,16 +56,16 @@ pub fn load(results: &Results, channels: Vec<Channel>, treatment: Treatment) -> 
     Ok(histories)
 }
 
-/// Why histories cannot be treated as asked.
+/// Reason why histories cannot be processed as requested.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Untreated {
-    /// None of them.
+    /// No channel can be.
     Run(String),
-    /// One of them.
+    /// One channel cannot be.
     Channel {
-        /// Which.
+        /// The channel.
         name: String,
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
@@ -74,7 +74,7 @@ fn not_given(name: &str) -> Untreated {
     Untreated::Channel { name: name.to_owned(), reason: "its values are not among those given".to_owned() }
 }
 
-/// The channels whose values [`treated`] needs for these channels.
+/// The channels whose values [`treated`] needs to compute these channels.
 pub fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel> {
     let mut asked = channels.to_vec();
     if filter != Filter::None {
@@ -83,7 +83,7 @@ pub fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel
     asked
 }
 
-/// Histories of channels of a model from their values at the outputs.
+/// Histories of channels computed from their values at the outputs.
 ///
 /// # Errors
 /// Outputs too far apart for the filter, or an interval that is none; a channel that is not among the values.
@@ -143,8 +143,7 @@ fn filtered_channel(
     resultant(&x, &y, &z).map_err(|e| e.to_string())
 }
 
-/// The interval of the outputs. The last output stands at the run's end, which need not be a whole interval after the one
-/// before; it is then left out.
+/// Interval of the outputs. A last output that is not a whole interval after the one before is left out.
 fn even(series: &mut Series, notes: &mut Vec<String>) -> Result<f64, String> {
     uniform_interval(&series.time_s).or_else(|error| {
         let last = series.time_s.len().saturating_sub(1);
@@ -166,7 +165,7 @@ fn too_coarse(results: &Results, channel: &str, reason: &str) -> Failure {
     )
 }
 
-/// More values than this are a slip of the pen: they take a gigabyte.
+/// Largest number of values (a gigabyte); more is taken for a mistake.
 const MOST_VALUES: f64 = 5e7;
 
 fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
@@ -196,8 +195,8 @@ fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
     Ok(())
 }
 
-/// The channels that names and patterns (`head.*`) ask for, each once, in the order asked; all for no names.
-/// Beside them the patterns that fit none, where another name does.
+/// Channels selected by names and patterns (`head.*`), each once, in the given order; all if there are no names. Also
+/// the patterns without a match, if another name has one.
 ///
 /// # Errors
 /// A name or pattern that fits no channel.
@@ -225,7 +224,7 @@ pub fn choose<'a>(model: &Model, names: &'a [String]) -> Result<(Vec<Channel>, V
     }
 }
 
-/// The channels that a name or a pattern means.
+/// Channels matched by a name or a pattern.
 fn fitting(model: &Model, name: &str) -> Vec<Channel> {
     if name.contains('*') { matching(model, name) } else { find(model, name).into_iter().collect() }
 }

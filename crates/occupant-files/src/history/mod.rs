@@ -19,9 +19,9 @@ pub use load::{Treatment, Untreated, asked, choose, load, treated};
 pub struct Histories {
     /// Times, s.
     pub time_s: Vec<f64>,
-    /// The channels in the order asked for.
+    /// The channels in the requested order.
     pub columns: Vec<Column>,
-    /// What was done that a reader should know.
+    /// Remarks on the processing.
     pub notes: Vec<String>,
 }
 
@@ -47,9 +47,9 @@ impl Histories {
 pub struct Column {
     /// The channel.
     pub channel: Channel,
-    /// The filter class that was applied.
+    /// Filter class applied.
     pub class: Option<ChannelClass>,
-    /// Values in the channel's SI unit, one a time.
+    /// Values in the channel's SI unit, one per time.
     pub values: Vec<f64>,
 }
 
@@ -58,7 +58,7 @@ pub fn class_name(class: Option<ChannelClass>) -> String {
     class.map_or_else(|| "none".to_owned(), |c| format!("CFC {}", c.hertz()))
 }
 
-/// Units asked for.
+/// Choice of units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum UnitChoice {
@@ -72,7 +72,7 @@ pub enum UnitChoice {
 }
 
 impl UnitChoice {
-    /// As on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             UnitChoice::Si => "si",
@@ -82,7 +82,7 @@ impl UnitChoice {
     }
 }
 
-/// Axes for what is told along those of a segment.
+/// Axes of quantities that belong to a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum AxisChoice {
@@ -94,7 +94,7 @@ pub enum AxisChoice {
 }
 
 impl AxisChoice {
-    /// The axes of a channel, and what its values are to be multiplied by.
+    /// Axes of a channel, and the sign to multiply its values by.
     pub fn of(self, channel: &Channel) -> (Axes, f64) {
         if self == AxisChoice::Segment || channel.axes != Axes::Segment {
             return (channel.axes, 1.0);
@@ -103,7 +103,7 @@ impl AxisChoice {
         (Axes::J211, if is_across { -1.0 } else { 1.0 })
     }
 
-    /// The same histories along these axes.
+    /// The histories converted to these axes.
     pub fn turned(self, mut histories: Histories) -> Histories {
         for column in &mut histories.columns {
             let (axes, sign) = self.of(&column.channel);

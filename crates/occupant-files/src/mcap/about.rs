@@ -17,13 +17,13 @@ pub const RUN: &str = "occupant.run";
 /// Name of the last metadata record.
 pub const RESULT: &str = "occupant.result";
 
-/// Name of the attachment that is the scenario with all that was resolved and overridden.
+/// Name of the attachment with the scenario after all expansions and overrides.
 pub const RESOLVED: &str = "resolved.toml";
 
-/// Key of the first metadata record: what the run had that its scenario does not say.
+/// Key of the first metadata record: settings of the run that are not in its scenario.
 pub const BEYOND: &str = "beyond_scenario";
 
-/// A text that travels with the results.
+/// A text stored with the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Document {
     /// File name, without a folder.
@@ -34,20 +34,20 @@ pub struct Document {
     pub content: Vec<u8>,
 }
 
-/// Where a run comes from.
+/// Origin of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct About {
     /// The program and its version, e.g. `occupant 0.1.0`.
     pub program: String,
     /// The scenario as it was read.
     pub scenario: Document,
-    /// The scenario with all that was resolved and overridden, if it differs.
+    /// The scenario after all expansions and overrides, if it differs.
     pub resolved: Option<Document>,
-    /// More entries of the first metadata record. Nothing that changes from run to run of one scenario belongs here.
+    /// Further entries of the first metadata record, reproducible for the same scenario.
     pub notes: BTreeMap<String, String>,
 }
 
-/// The first metadata record, for a scenario that names `tables`.
+/// The first metadata record, for a scenario that refers to `tables`.
 pub fn run(about: &About, tables: &[Document], model: &Model) -> Metadata {
     let setup = model.setup();
     let mut entries = about.notes.clone();

@@ -15,7 +15,7 @@ const PROTOBUF: &str = "protobuf";
 /// Package of our own messages.
 const PACKAGE: &str = "occupant";
 
-/// A topic that messages go to.
+/// A topic.
 #[derive(Debug)]
 pub struct Channel {
     id: u16,
@@ -23,7 +23,7 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// The header of the next message, at a time in ns.
+    /// Header of the next message, at a time in ns.
     pub fn next(&mut self, ns: u64) -> MessageHeader {
         let header = MessageHeader { channel_id: self.id, sequence: self.sequence, log_time: ns, publish_time: ns };
         self.sequence = self.sequence.wrapping_add(1);
@@ -63,7 +63,7 @@ impl Schemas {
         add(writer, topic, &format!("foxglove.{name}"), &self.foxglove(name), &BTreeMap::new())
     }
 
-    /// A channel of a message of the catalogue; its metadata say what each field means.
+    /// A channel of a catalogue message; its metadata describe each field.
     ///
     /// # Errors
     /// What the writer reports.

@@ -25,7 +25,7 @@ pub fn write(wire: &mut Wire, sample: &Sample<'_>) {
     sample.checkpoint().keep(wire);
 }
 
-/// Reads the message back. A field that the file does not have leaves what it would tell blank.
+/// Parses the message. Fields missing from the file stay empty.
 ///
 /// # Errors
 /// Fields that cannot be, as text.
@@ -38,7 +38,7 @@ pub fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
     reader.trouble.map_or(Ok(checkpoint), Err)
 }
 
-/// What the fields are called.
+/// Names of the fields.
 #[derive(Default)]
 struct Words {
     fields: Vec<Field>,

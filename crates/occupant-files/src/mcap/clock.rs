@@ -1,12 +1,12 @@
 //! Simulation time as the file's time: nanoseconds from the start of the run.
 
-/// `log_time` and `publish_time` of what happens at `time_s` in a run from `start_s`; nothing happens before the start.
+/// `log_time` and `publish_time` of an event at `time_s` in a run from `start_s`, not before the start.
 pub fn nanoseconds(time_s: f64, start_s: f64) -> u64 {
     // a float that is negative or not a number becomes 0 here
     ((time_s - start_s) * 1e9).round() as u64
 }
 
-/// Every how many outputs a frame of the scene is recorded so that there are at most `most_per_s` frames a second.
+/// Number of outputs per recorded frame of the scene, for at most `most_per_s` frames a second.
 pub fn stride(output_s: f64, most_per_s: u32) -> usize {
     // an output rate that misses the limit by rounding alone still counts as the limit
     (1.0 / (output_s * f64::from(most_per_s)) - 1e-9).ceil().max(1.0) as usize

@@ -7,8 +7,8 @@ use prost_types::{
     FileDescriptorSet,
 };
 
-/// A field: its number, which never changes, its name, with the unit of what it holds, and its type in the words of a
-/// `.proto` file: `double`, `repeated fixed32`, `enum foxglove.Log.Level`; what is neither is a message.
+/// A field: its number, which never changes, its name with the unit, and its type in `.proto` notation: `double`,
+/// `repeated fixed32`, `enum foxglove.Log.Level`; any other is a message.
 pub fn field(number: u32, name: &str, words: &str) -> FieldDescriptorProto {
     let (label, words) = match words.strip_prefix("repeated ") {
         Some(words) => (Label::Repeated, words),
@@ -45,7 +45,7 @@ pub fn enumeration<'a>(name: &str, values: impl Iterator<Item = &'a str>) -> Enu
     }
 }
 
-/// A `.proto` file with one message of its own name; `package/Name.proto` declares `package.Name`.
+/// A `.proto` file with one message of the same name; `package/Name.proto` declares `package.Name`.
 pub fn file(
     package: &str,
     name: &str,
@@ -72,7 +72,7 @@ pub fn file(
     }
 }
 
-/// The file that declares a type: `.a.B` and `.a.B.C` stand in `a/B.proto`, Google's in files of small letters.
+/// The file that declares a type: `.a.B` and `.a.B.C` are in `a/B.proto`, Google's in files with lower-case names.
 fn home(type_name: &str) -> Option<String> {
     if let Some(google) = type_name.strip_prefix(".google.protobuf.") {
         return Some(format!("google/protobuf/{}.proto", google.to_lowercase()));
@@ -81,7 +81,7 @@ fn home(type_name: &str) -> Option<String> {
     Some(format!("{}/{}.proto", words.next()?, words.next()?))
 }
 
-/// The bytes of a schema record: the wanted file and all that it refers to, dependencies first.
+/// Bytes of a schema record: the file and all that it refers to, dependencies first.
 pub fn set(wanted: &FileDescriptorProto, library: &[FileDescriptorProto]) -> Vec<u8> {
     let mut file = Vec::new();
     collect(wanted, library, &mut file);

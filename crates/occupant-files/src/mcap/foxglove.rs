@@ -18,11 +18,11 @@ pub const LOG: &str = "Log";
 /// `foxglove.Log.Level`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// What happened.
+    /// An event.
     Info = 2,
-    /// What the user should know.
+    /// A warning for the user.
     Warning = 3,
-    /// What ended the run.
+    /// The reason why the run ended.
     Error = 4,
 }
 

@@ -10,7 +10,7 @@ use super::topics::{self, VEHICLE_FRAME};
 /// File name of the attachment.
 pub const NAME: &str = "layout.json";
 
-/// The layout that shows these messages.
+/// A viewer layout for these messages.
 pub fn layout(messages: &[Message]) -> Value {
     let fields = |message: &str, field: &str| -> Vec<String> {
         let own = messages.iter().filter(|m| m.name == message);
@@ -49,7 +49,7 @@ fn split(direction: &str, percent: u32, first: impl Into<Value>, second: impl In
     json!({"direction": direction, "splitPercentage": percent, "first": first, "second": second})
 }
 
-/// The camera follows the vehicle's place but keeps space's upright: the vehicle's Z points down.
+/// The camera follows the vehicle's position but stays upright in space: the vehicle's Z points down.
 fn scene() -> Value {
     json!({
         "cameraState": {

@@ -16,7 +16,7 @@ pub fn write(wire: &mut Wire, ns: u64, level: Level, message: &str) {
     wire.index(6, 0);
 }
 
-/// Names for the log, which is written when the model is no longer at hand.
+/// Names for the log, which is written when the model is no longer available.
 #[derive(Debug)]
 pub struct Names {
     spheres: Vec<String>,
@@ -24,7 +24,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// Those of a model.
+    /// Names of a model.
     pub fn of(model: &Model) -> Self {
         let setup = model.setup();
         Names {
@@ -42,7 +42,7 @@ impl Names {
     }
 }
 
-/// What the end says, and how bad it is.
+/// Message about the end of the run, and its level.
 pub fn end(outcome: &Outcome) -> (Level, String) {
     match &outcome.status {
         Status::Completed => (Level::Info, format!("completed at t = {:.6} s", outcome.time_s)),

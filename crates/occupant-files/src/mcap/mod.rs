@@ -30,7 +30,7 @@ pub use about::{About, Document};
 pub use recorder::{McapOptions, McapRecorder};
 pub use stored::StoredRun;
 
-/// The messages of every output, in the order in which they are written: the catalogue of the model and the checkpoint.
+/// The messages of every output, in writing order: those of the model's catalogue, and the checkpoint.
 pub fn messages(model: &Model) -> Vec<Message> {
     let mut messages = catalogue::messages(model);
     messages.push(checkpoint::checkpoint());

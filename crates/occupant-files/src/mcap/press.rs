@@ -15,44 +15,44 @@ use mcap::{McapResult, Writer};
 use super::channel::Channel;
 use super::wire::Wire;
 
-/// Chunks that may wait to be written; then the run waits.
+/// Largest number of chunks waiting to be written; then the run waits.
 const WAITING: usize = 2;
 
-/// The writer of a file, and what is on its way to it.
+/// The writer of a file, and data in transit to it.
 pub struct Press<W: Write + Seek + Send + 'static> {
     writer: Shared<W>,
-    /// Has the writer locked as long as it is there.
+    /// The writing thread, which holds the writer's lock while it exists.
     thread: Option<Thread>,
-    /// What has not been handed over.
+    /// Data not yet handed over.
     batch: Batch,
 }
 
-/// The writer of a file; none once the target was taken back.
+/// The writer of a file; none after the target was taken back.
 type Shared<W> = Arc<Mutex<Option<Writer<W>>>>;
 
-/// A thread that writes batches until none can come any more, or one fails.
+/// A thread that writes batches until the channel closes or a write fails.
 struct Thread {
     batches: SyncSender<Batch>,
     handle: JoinHandle<McapResult<()>>,
 }
 
-/// Messages in a row.
+/// Consecutive messages.
 #[derive(Default)]
 struct Batch {
-    /// Header of each, and where it ends in `wire`.
+    /// Header of each, and its end in `wire`.
     messages: Vec<(MessageHeader, usize)>,
     wire: Wire,
-    /// A chunk ends behind them.
+    /// Whether a chunk ends after them.
     ends_chunk: bool,
 }
 
 impl<W: Write + Seek + Send + 'static> Press<W> {
-    /// Without a thread so far.
+    /// A press that has no thread yet.
     pub fn new(writer: Writer<W>) -> Self {
         Press { writer: Arc::new(Mutex::new(Some(writer))), thread: None, batch: Batch::default() }
     }
 
-    /// Takes the next message of a channel, as `write` writes it.
+    /// Appends a channel's message, encoded by `write`.
     pub fn put(&mut self, channel: &mut Channel, ns: u64, write: impl FnOnce(&mut Wire)) {
         write(&mut self.batch.wire);
         self.batch.messages.push((channel.next(ns), self.batch.wire.bytes.len()));
@@ -70,7 +70,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         self.hand_over()
     }
 
-    /// The writer, with everything written that was handed over.
+    /// The writer, after all data handed over have been written.
     ///
     /// # Errors
     /// What the target reported.
@@ -81,7 +81,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         self.own()?.as_mut().ok_or_else(lost)
     }
 
-    /// The target; what was not yet handed to it is cut off.
+    /// The target; data not yet written are dropped.
     ///
     /// # Errors
     /// None is left, because the thread broke off.
@@ -91,7 +91,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         self.own()?.take().map(Writer::into_inner).ok_or_else(lost)
     }
 
-    /// Gives the batch to the thread, or writes it.
+    /// Hands the batch to the thread, or writes it.
     fn hand_over(&mut self) -> McapResult<()> {
         let batch = std::mem::take(&mut self.batch);
         match &self.thread {
@@ -101,7 +101,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         }
     }
 
-    /// Waits until the thread has written everything and ends it.
+    /// Waits for the thread to write everything and end.
     fn wait(&mut self) -> McapResult<()> {
         let Some(Thread { batches, handle }) = self.thread.take() else {
             return Ok(());
@@ -110,7 +110,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         handle.join().unwrap_or_else(|_broke_off| Err(lost()))
     }
 
-    /// The writer's place, while no thread has it.
+    /// The writer, while no thread holds it.
     fn own(&mut self) -> McapResult<&mut Option<Writer<W>>> {
         let alone = Arc::get_mut(&mut self.writer).and_then(|writer| writer.get_mut().ok());
         alone.ok_or_else(lost)
@@ -118,14 +118,14 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
 }
 
 impl<W: Write + Seek + Send + 'static> Drop for Press<W> {
-    /// What was taken is written, as a writer does that is dropped; nobody is left to hear of an error.
+    /// Writes the remaining data, as a dropped writer does; errors are ignored.
     fn drop(&mut self) {
         let _ = self.home();
     }
 }
 
 impl Thread {
-    /// None if no thread can be had.
+    /// Starts the thread; none if that fails.
     fn begin<W: Write + Seek + Send + 'static>(writer: &Shared<W>) -> Option<Thread> {
         let writer = Arc::clone(writer);
         let (batches, coming) = sync_channel::<Batch>(WAITING);
@@ -150,7 +150,7 @@ impl Batch {
     }
 }
 
-/// After an error the writer is not used again.
+/// Error of a writer after an earlier error.
 fn lost() -> mcap::McapError {
     std::io::Error::other("the file's writer is gone").into()
 }

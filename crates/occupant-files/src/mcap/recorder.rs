@@ -21,14 +21,14 @@ use super::transforms::FrameNames;
 use super::wire::Wire;
 use super::{about, checkpoint, layout, log, messages, scene, topics, transforms};
 
-/// How a run is written.
+/// Settings of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct McapOptions {
-    /// Transforms and scenes at most this often, 1/s; the messages of results come with every output.
+    /// Largest rate of transforms and scenes, 1/s; result messages are written at every output.
     pub frames_per_s: NonZeroU32,
-    /// A chunk is closed and handed to the operating system after this many outputs: what a killed run leaves.
+    /// Outputs per chunk; a killed run leaves all complete chunks.
     pub outputs_per_chunk: NonZeroU32,
-    /// Length of a drawn force, m/N.
+    /// Length of force arrows, m/N.
     pub force_scale_m_per_n: f64,
 }
 
@@ -56,10 +56,10 @@ pub struct McapRecorder<W: Write + Seek + Send + 'static> {
     outputs: u64,
 }
 
-/// The channels of a run that has begun.
+/// Channels of a run in progress.
 struct Tracks {
     start_s: f64,
-    /// A frame of the scene every so many outputs.
+    /// Outputs per frame of the scene.
     stride: usize,
     frames: FrameNames,
     names: Names,
@@ -86,13 +86,13 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
         Ok(McapRecorder { press: Press::new(writer), about, tables: Vec::new(), options, tracks: None, outputs: 0 })
     }
 
-    /// Attaches a table that the scenario names.
+    /// Attaches a table referred to by the scenario.
     pub fn with_table(mut self, table: Document) -> Self {
         self.tables.push(table);
         self
     }
 
-    /// The target, after the run's end. Before it, what was written so far is cut off.
+    /// The target after the run's end. Before that, the file stays incomplete.
     ///
     /// # Errors
     /// None is left.
@@ -121,7 +121,7 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
         Ok(())
     }
 
-    /// What never changes, on topics of its own.
+    /// Writes the constant scenes, on their own topics.
     fn write_still_scenes(&mut self, model: &Model, schemas: &Schemas, frames: &FrameNames) -> McapResult<()> {
         type Draw<'a> = &'a dyn Fn(&mut Wire);
         let body = model.body();

@@ -7,12 +7,12 @@ use std::io::Read;
 
 use mcap::records::op;
 
-/// Largest chunk that is unpacked, bytes. Ours have less than one million.
+/// Largest unpacked chunk, bytes. Ours have less than one million.
 const LARGEST_CHUNK: u64 = 256 << 20;
-/// LZ4 makes of a byte at most so many.
+/// Largest expansion ratio of LZ4.
 const LARGEST_RATIO: u64 = 255;
 
-/// A record that counts for a reader of runs.
+/// A record used by readers of runs.
 pub enum Record<'a> {
     /// A channel.
     Channel {
@@ -48,18 +48,18 @@ pub enum Record<'a> {
     Other,
 }
 
-/// What a record is, where it stands and where the next one begins.
+/// Opcode and position of a record, and the start of the next one.
 #[derive(Clone, Copy)]
 pub struct Frame<'a> {
-    /// What kind of record it is.
+    /// Opcode.
     pub opcode: u8,
     body: &'a [u8],
-    /// Where the next record begins.
+    /// Start of the next record.
     pub next: usize,
 }
 
 impl<'a> Frame<'a> {
-    /// The record at a place; none if it is not whole, or no record.
+    /// The record at a position; none if it is incomplete or invalid.
     pub fn at(bytes: &'a [u8], at: usize) -> Option<Self> {
         let mut fields = Fields(bytes.get(at..)?);
         let [opcode] = fields.array()?;
@@ -68,7 +68,7 @@ impl<'a> Frame<'a> {
         (opcode != 0).then_some(Frame { opcode, body, next: bytes.len() - fields.0.len() })
     }
 
-    /// What it says; `room` is how many bytes compressed chunks may still make.
+    /// Parses the record; `room` is the number of bytes that compressed chunks may still expand to.
     ///
     /// # Errors
     /// Problems of it.
@@ -90,20 +90,20 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// What the index at the end of a file tells.
+/// The index at the end of a file.
 #[derive(Default)]
 pub struct Index {
-    /// Places where records begin, in order.
+    /// Positions where records begin, in order.
     landmarks: Vec<usize>,
     /// Channels: number and topic.
     pub channels: Vec<(u16, String)>,
 }
 
-/// Bytes of the last record and of the magic behind it.
+/// Length of the last record and the final magic, bytes.
 const FOOTER: usize = 9 + 20 + mcap::MAGIC.len();
 
 impl Index {
-    /// Empty for a file that has lost its end.
+    /// The index; empty for a file without its end.
     pub fn of(bytes: &[u8]) -> Self {
         let mut index = Index::default();
         let footer = bytes.len().checked_sub(FOOTER).filter(|_| bytes.ends_with(mcap::MAGIC));
@@ -129,13 +129,13 @@ impl Index {
         index
     }
 
-    /// The next place after this one where a record begins.
+    /// The next position after this one where a record begins.
     pub fn after(&self, at: usize) -> Option<usize> {
         self.landmarks.get(self.landmarks.partition_point(|landmark| *landmark <= at)).copied()
     }
 }
 
-/// What is not read yet of a record.
+/// The unread rest of a record.
 struct Fields<'a>(&'a [u8]);
 
 impl<'a> Fields<'a> {
@@ -151,7 +151,7 @@ impl<'a> Fields<'a> {
         self.array().map(u64::from_le_bytes)
     }
 
-    /// What has its length, of four bytes, before it.
+    /// A block preceded by its length of four bytes.
     fn block(&mut self) -> Option<&'a [u8]> {
         let length = self.array().map(u32::from_le_bytes)?;
         self.bytes(length.into())

@@ -11,7 +11,7 @@ use super::about::{RESULT, RUN};
 use super::checkpoint::{self, TOPIC};
 use super::records::{Frame, Index, Record};
 
-/// What a result file holds, or what a run that was cut off has left of it.
+/// Content of a result file, or what remains of an interrupted run.
 #[derive(Clone, Debug, Default)]
 pub struct StoredRun {
     /// The entries of the metadata record `occupant.run`.
@@ -22,28 +22,29 @@ pub struct StoredRun {
     pub attachments: BTreeMap<String, Vec<u8>>,
     /// Checkpoints in the file's order.
     pub checkpoints: Vec<Checkpoint>,
-    /// First byte at which the file is not what was written, and what is wrong there.
+    /// First byte that differs from what was written, and the defect.
     damage: Option<(usize, &'static str)>,
-    /// The byte at which a file that has lost its end breaks off.
+    /// Position at which a truncated file ends.
     end: Option<usize>,
-    /// Bytes that checkpoints may still take.
+    /// Remaining memory for checkpoints, bytes.
     room: usize,
-    /// Bytes that compressed chunks may still make.
+    /// Remaining expansion of compressed chunks, bytes.
     pub(super) unpacked: u64,
 }
 
-/// Bytes that the checkpoints of a small file may take; one of a large file may take so many times its own.
+/// Largest memory for checkpoints of a small file, bytes; a large file may take a multiple of its size.
 const MOST_OF_CHECKPOINTS: usize = 256 << 20;
 const MOST_TIMES_FILE: usize = 8;
-/// Bytes that the chunks of a small file may make; those of a large file may make so many times its own. Ours make 2 to 5.
+/// Largest expansion of the chunks of a small file, bytes; a large file may take a multiple of its size. Ours expand by
+/// 2 to 5.
 const MOST_UNPACKED: u64 = 256 << 20;
 const MOST_TIMES_PACKED: u64 = 32;
 
-/// How reading ends early.
+/// Reason to stop reading.
 enum Refused {
     /// The record is damaged.
     Damaged(&'static str),
-    /// The file is of no use to this version.
+    /// This version cannot use the file.
     Unknown(String),
 }
 
@@ -54,8 +55,8 @@ impl From<&'static str> for Refused {
 }
 
 impl StoredRun {
-    /// Reads a file up to its end, or up to where it is cut off. A chunk counts whole or not at all; behind a record that
-    /// is damaged reading resumes with the next one that is whole.
+    /// Reads a file to its end or its truncation. A chunk is used whole or not at all; after a damaged record, reading
+    /// resumes with the next intact one.
     ///
     /// # Errors
     /// A file that is not MCAP, or a checkpoint that cannot be read, as text.
@@ -102,7 +103,7 @@ impl StoredRun {
         self.damage.get_or_insert((at, what));
     }
 
-    /// Takes what counts from a record; `wanted` is the channel of checkpoints.
+    /// Takes the content of a record; `wanted` is the channel of checkpoints.
     fn take(&mut self, frame: Frame<'_>, wanted: &mut Option<u16>) -> Result<(), Refused> {
         match frame.record(&mut self.unpacked)? {
             Record::Chunk(content) => {
@@ -131,7 +132,7 @@ impl StoredRun {
         Ok(())
     }
 
-    /// The records of a chunk: documents do not stand in one, where a small file could hold large ones.
+    /// Takes the records of a chunk, except documents, which a small file could expand without bound.
     fn take_all(&mut self, content: &[u8], wanted: &mut Option<u16>) -> Result<(), Refused> {
         let mut at = 0;
         while at < content.len() {
@@ -145,7 +146,7 @@ impl StoredRun {
         Ok(())
     }
 
-    /// Numbers of the outputs that the file has lost.
+    /// Numbers of the outputs missing from the file.
     fn gaps(&self) -> Vec<Range<usize>> {
         let number = |entries: &BTreeMap<String, String>, key| entries.get(key)?.parse::<usize>().ok();
         let first = number(&self.run, "resumed_output").unwrap_or(0);
@@ -163,7 +164,7 @@ impl StoredRun {
         gaps
     }
 
-    /// What the file has lost of a run; none if every output up to the last is there.
+    /// Description of the missing outputs; none if all up to the last are there.
     pub fn lost(&self) -> Option<String> {
         let name = |gap: &Range<usize>| match gap.end - gap.start {
             1 => gap.start.to_string(),
@@ -174,8 +175,8 @@ impl StoredRun {
         (!gaps.is_empty()).then(|| format!("{found}; outputs {} are missing", gaps.join(", ")))
     }
 
-    /// How the run ended, and why where it did not complete; one that was cut off, or of which outputs are lost, counts as
-    /// interrupted.
+    /// How the run ended, and the reason if it did not complete; a truncated file, or one with missing outputs, counts
+    /// as interrupted.
     pub fn ending(&self) -> (RunStatus, Option<String>) {
         let said = |key| self.result.as_ref()?.get(key).cloned();
         let lost = self.lost();
@@ -187,13 +188,13 @@ impl StoredRun {
         (status, lost.or_else(|| said("reason")).or_else(|| Some("it was cut off".to_owned())))
     }
 
-    /// Problems of the file; none for one that is whole or was cut off.
+    /// Defects of the file; none for an intact or truncated one.
     pub fn flaw(&self) -> Option<String> {
         let whole = if self.result.is_some() { "; all outputs are there" } else { "" };
         self.lost().or_else(|| self.damage.map(|damage| damaged_at(damage) + whole))
     }
 
-    /// Why something may be missing, to be added to the message that says so.
+    /// Reason why something may be missing, as an addition to a message.
     pub fn because(&self) -> String {
         match (self.damage, self.end) {
             (Some(damage), _) => format!("; it is {}", damaged_at(damage)),

@@ -5,7 +5,7 @@ pub const SPACE_FRAME: &str = "space";
 /// The vehicle: X forward, Y right, Z down, origin at its centre of gravity.
 pub const VEHICLE_FRAME: &str = "vehicle";
 
-/// Frames of segments and vehicles.
+/// Poses of segments and vehicles.
 pub const TRANSFORMS: &str = "/tf";
 /// Surfaces, written once.
 pub const COMPARTMENT_SCENE: &str = "/scene/compartment";
@@ -30,7 +30,7 @@ pub fn segment_frame(name: &str) -> String {
     }
 }
 
-/// The frame of a sphere that rides on parts of its segment that yield: the segment's axes, where it has been carried.
+/// Frame of a sphere that rides on deformable parts of its segment: the segment's axes, at the displaced position.
 pub fn ridden_frame(segment: &str, sphere: &str) -> String {
     let own = sphere.rsplit_once('.').map_or(sphere, |(_, own)| own);
     format!("{}/{own}", segment_frame(segment))

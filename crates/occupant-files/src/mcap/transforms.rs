@@ -10,16 +10,16 @@ use super::scene::compartment::frame_name;
 use super::topics::{SPACE_FRAME, VEHICLE_FRAME, ridden_frame, segment_frame};
 use super::wire::Wire;
 
-/// Names of the frames of segments and of spheres that ride, made once.
+/// Names of the frames of segments and of riding spheres, built once.
 #[derive(Debug)]
 pub struct FrameNames {
     segments: Vec<String>,
-    /// By sphere; none of one that rides on nothing.
+    /// By sphere; none if it rides on nothing.
     ridden: Vec<Option<String>>,
 }
 
 impl FrameNames {
-    /// Those of a body.
+    /// Names for a body.
     pub fn new(body: &Body) -> Self {
         let rides = |sphere: &ContactSphere| !sphere.ride.contact.is_empty();
         let ridden = |s: &ContactSphere| rides(s).then(|| ridden_frame(body.tree[s.segment].name, &s.name));
@@ -34,7 +34,7 @@ impl FrameNames {
         &self.segments[segment.index()]
     }
 
-    /// The frame in which a sphere (index) stays where it is.
+    /// The frame in which a sphere (index) is fixed.
     pub fn of_sphere(&self, body: &Body, sphere: usize) -> &str {
         self.ridden[sphere].as_deref().unwrap_or_else(|| self.of(body.spheres[sphere].segment))
     }

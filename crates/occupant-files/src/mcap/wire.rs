@@ -8,15 +8,15 @@ use nalgebra::{UnitQuaternion, Vector3};
 use occupant_core::quantity::Value;
 use prost::encoding::{WireType, decode_key, decode_varint, double, encode_key, encode_varint, fixed32, uint64};
 
-/// Messages under construction, one behind the other.
+/// Messages under construction, one after the other.
 #[derive(Debug, Default)]
 pub struct Wire {
-    /// What was written.
+    /// Bytes written so far.
     pub bytes: Vec<u8>,
 }
 
 impl Wire {
-    /// A value of the catalogue; nothing for a vector that does not exist.
+    /// A value of the catalogue; nothing for a missing vector.
     pub fn value(&mut self, field: u32, value: &Value) {
         match value {
             Value::Number(number) => self.number(field, *number),
@@ -113,19 +113,19 @@ impl Wire {
         });
     }
 
-    /// The begin of a field of so many bytes.
+    /// Start of a field with this many bytes.
     fn length(&mut self, field: u32, bytes: usize) {
         encode_key(field, WireType::LengthDelimited, &mut self.bytes);
         encode_varint(bytes as u64, &mut self.bytes);
     }
 }
 
-/// What is not read yet of a message whose fields were all written in one order.
+/// The unread rest of a message whose fields are in a fixed order.
 #[derive(Clone, Copy)]
 pub struct Rest<'a>(pub &'a [u8]);
 
 impl<'a> Rest<'a> {
-    /// Reads the next field into `value`, if it is `field` and of its type.
+    /// Reads the next field into `value` if it is `field` and has its type.
     pub fn value(&mut self, field: u32, value: &mut Value) -> Option<()> {
         let mut ahead = *self;
         let wire_type = match value {

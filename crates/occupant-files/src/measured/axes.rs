@@ -1,6 +1,6 @@
 //! Directions of the axes of records and tables.
 
-/// x is forward in both.
+/// Direction of the axes; x is forward in both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {
     /// y right, z down.
@@ -18,6 +18,6 @@ pub const AXES: [(&str, &str, Axes); 4] = [
 ];
 
 impl Axes {
-    /// What is said where nobody said it.
+    /// Note when axes were not given.
     pub const TAKEN: &str = "axes are taken as x forward, y right, z down (SAE J670); use --axes z_up for x forward, y left, z up (ISO 8855)";
 }

@@ -26,34 +26,34 @@ pub use motion::{Motion, MotionKind, Placed};
 pub use nhtsa::TestRecord;
 pub use pair::{MapArgument, Pair, Wanted, pairs};
 
-/// Whether a file or folder is read as measured signals, not as the results of a run.
+/// Whether a file or folder contains measured signals instead of the results of a run.
 pub fn is_recording(path: &Path) -> bool {
     ending(path) != "mcap"
 }
 
-/// A test and what else its record says.
+/// A test with the metadata of its record.
 #[derive(Clone, Debug)]
 pub struct Imported {
-    /// What the record says of the test.
+    /// Metadata of the test.
     pub record: TestRecord,
     /// Its signals.
     pub recording: Recording,
-    /// Which way its axes point, where the kind of file says it.
+    /// Direction of its axes, if the format defines it.
     pub axes: Option<Axes>,
 }
 
-/// What is asked for where a file has several, or does not say it.
+/// Choices where a file has several vehicles, or does not define its columns.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reading<'a> {
-    /// Which vehicle.
+    /// The vehicle.
     pub vehicle: Option<u32>,
-    /// Which object.
+    /// The object.
     pub object: Option<&'a str>,
-    /// Names and units of a table's columns in place of its headings.
+    /// Names and units of a table's columns, instead of its headings.
     pub columns: Option<&'a str>,
 }
 
-/// Reads whatever holds a test or a trajectory.
+/// Reads a test or a trajectory in any format.
 ///
 /// # Errors
 /// As [`read`].
@@ -97,7 +97,7 @@ pub fn read(path: &Path) -> Result<Recording, Failure> {
     table_of(path, None)
 }
 
-/// Refuses files of this program's own that are no records.
+/// Refuses files written by this program that are no records.
 fn refuse_own(path: &Path) -> Result<(), Failure> {
     let name = quoted(path.display());
     match ending(path).as_str() {

@@ -8,7 +8,7 @@ use occupant_scenario::{column_in, column_named};
 use crate::base::Failure;
 use crate::signals::{Recording, Signal};
 
-/// Columns of records and the channels of a run that they are.
+/// Columns of records, and the corresponding channels of runs.
 pub(super) const OF_RUNS: [(&str, &str); 6] = [
     ("ax", "vehicle.acceleration.x"),
     ("ay", "vehicle.acceleration.y"),
@@ -17,61 +17,61 @@ pub(super) const OF_RUNS: [(&str, &str); 6] = [
     ("wy", "vehicle.angular_velocity.y"),
     ("wz", "vehicle.angular_velocity.z"),
 ];
-/// Columns of places and angles; of velocity changes.
+/// Columns of positions and angles; of velocity changes.
 const OF_PLACES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 const OF_CHANGES: [&str; 2] = ["dvx", "dvy"];
 
-/// A velocity change whose rows miss so little is bridged without being asked, s: recorders write every 10 ms.
+/// Longest gap of a velocity change that is bridged by default, s: recorders write every 10 ms.
 const SHORT_S: f64 = 0.020_001;
 
-/// What is recorded of the motion.
+/// Kind of recorded motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionKind {
     /// Accelerations and rates of sensors.
     Accelerations,
     /// Velocity changes of an event data recorder.
     Changes,
-    /// Places and angles.
+    /// Positions and angles.
     Places,
 }
 
 /// A column of the motion.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// As paths of scenarios name it.
+    /// Name as in paths of scenarios.
     pub name: &'static str,
     /// Its unit as written.
     pub unit: String,
-    /// SI units in one of it.
+    /// SI value of one unit.
     pub factor: f64,
     /// Values in its unit; NaN where missing.
     pub values: Vec<f64>,
 }
 
-/// The motion of a vehicle as it was recorded.
+/// The recorded motion of a vehicle.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// What kind it is.
+    /// Its kind.
     pub kind: MotionKind,
-    /// What it is, as text.
+    /// Its description.
     pub words: String,
     /// Times, s.
     pub time_s: Vec<f64>,
     /// Its columns.
     pub columns: Vec<Column>,
-    /// Names of the signals that it is made of.
+    /// Names of the signals that it is built from.
     pub signals: Vec<String>,
 }
 
-/// The signals that were found, by columns.
+/// Signals found, by column.
 type Found<'a> = Vec<(&'static str, &'a Signal)>;
 
-/// Which signals are asked for, and which gaps may be bridged.
+/// Choice of signals, and gaps to bridge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Placed<'a> {
-    /// Place of the vehicle's sensors; the centre of gravity, or the first that there is, if absent.
+    /// Location of the vehicle's sensors; the centre of gravity, or the first available, if absent.
     pub at: Option<&'a str>,
-    /// The longest hole that is bridged, s.
+    /// Longest gap that is bridged, s.
     pub bridge_s: Option<f64>,
 }
 
@@ -140,7 +140,7 @@ impl Motion {
         self.columns.iter().map(|column| column.name).collect()
     }
 
-    /// Cuts off ends at which a column has no value.
+    /// Cuts off the ends where a column has no value.
     fn trim(&mut self, notes: &mut Vec<String>) {
         let is_whole = |i: usize| self.columns.iter().all(|column| !column.values[i].is_nan());
         let count = self.time_s.len();
@@ -159,7 +159,7 @@ impl Motion {
         self.columns.iter_mut().for_each(|column| column.values = column.values[from..to].to_vec());
     }
 
-    /// Fills holes by straight lines, where that was asked for.
+    /// Fills gaps linearly, if requested.
     fn bridge(&mut self, most_s: Option<f64>, notes: &mut Vec<String>) -> Result<(), Failure> {
         let missing: Vec<(String, Hole)> = self.missing();
         let Some((_, longest)) = missing.iter().max_by(|a, b| a.1.length_s().total_cmp(&b.1.length_s())) else {
@@ -196,7 +196,7 @@ impl Motion {
         Ok(())
     }
 
-    /// What is missing: times that all lack, and values that a column lacks.
+    /// The gaps: times missing in all columns, and values missing in one.
     fn missing(&self) -> Vec<(String, Hole)> {
         let mut all: Vec<(String, Hole)> =
             holes(&self.time_s).into_iter().map(|hole| ("all".to_owned(), hole)).collect();
@@ -214,7 +214,7 @@ impl Motion {
         all
     }
 
-    /// Continues angles that were written between −180° and 180°, so that none jumps.
+    /// Unwraps angles recorded between −180° and 180°.
     fn unwrap(&mut self, notes: &mut Vec<String>) {
         let angles = ["roll", "pitch", "yaw"].map(|name| self.columns.iter().position(|column| column.name == name));
         if angles.iter().all(Option::is_none) {
@@ -242,7 +242,7 @@ impl Motion {
     }
 }
 
-/// What other signals tell of times at which the first tells nothing.
+/// Reports signals that extend beyond the time span of the first.
 fn beyond(found: &Found<'_>, first: &Signal) -> Option<String> {
     let ends = |signal: &Signal| Some([*signal.time_s.first()?, *signal.time_s.last()?]);
     let [from_s, to_s] = ends(first)?;
@@ -268,7 +268,7 @@ fn without_unit(signal: &Signal) -> Failure {
     )
 }
 
-/// The values at other times, by straight lines between samples that are there; NaN where the signal has none.
+/// Values at other times, interpolated linearly between existing samples; NaN where there are none.
 fn at_times(signal: &Signal, time_s: &[f64]) -> Vec<f64> {
     if signal.time_s == time_s {
         return signal.values.clone();
@@ -295,7 +295,7 @@ fn is_named(signal: &Signal, name: &str) -> bool {
     }
 }
 
-/// What to know where another column than the one that was taken has the same name, and other values.
+/// Note if another column with the same name has other values.
 fn doubled(recording: &Recording, name: &str, taken: &Signal) -> Option<String> {
     let si = |signal: &Signal| -> Vec<f64> {
         let factor = signal.scale.map_or(1.0, |scale| scale.factor);
@@ -318,7 +318,7 @@ fn doubled(recording: &Recording, name: &str, taken: &Signal) -> Option<String> 
     ))
 }
 
-/// Signals that say themselves which of the columns they are, by code or by heading and unit.
+/// Signals that identify their columns by code, or by heading and unit.
 fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
     let coded = |name: &str| {
         let of = |signal: &&Signal| signal.code.is_some_and(|code| code.sign_for(name, '0').is_some());
@@ -342,8 +342,8 @@ fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
     (MotionKind::Places, places, "places and angles".to_owned())
 }
 
-/// Of several places the one that is most likely to move as the vehicle does: its velocity change is that of most places, within a tenth, and of
-/// those it rings least, by the sum of all its rises and falls. None if most do not agree.
+/// Of several locations the most representative one: its velocity change agrees with most locations within a tenth, and
+/// among those it rings least (smallest total variation). None if most do not agree.
 fn typical(recording: &Recording) -> Option<(String, String)> {
     let changes = velocity_changes(recording);
     let mut sorted: Vec<f64> = changes.iter().map(|(_, change)| *change).collect();
@@ -372,7 +372,8 @@ fn typical(recording: &Recording) -> Option<(String, String)> {
     (changes.len() > 2 && 2 * agree.len() > changes.len()).then(|| ((*best).to_owned(), words))
 }
 
-/// The accelerometers at a place of the vehicle, by a word of their names; the typical place that looks ahead, else the first, if none is asked for.
+/// The accelerometers at a location, given by a word of their names; by default the representative location with a
+/// longitudinal accelerometer, else the first.
 fn accelerometers<'a>(
     recording: &'a Recording,
     place: Option<&str>,
@@ -412,7 +413,7 @@ fn accelerometers<'a>(
     Ok((MotionKind::Accelerations, columns, format!("accelerations at {own}")))
 }
 
-/// The place of the vehicle and the axis of an accelerometer, by code or by the name of NHTSA; none of what is no such thing.
+/// Location and axis of a vehicle accelerometer, by code or NHTSA name; none for other signals.
 fn acceleration(signal: &Signal) -> Option<(String, usize)> {
     if let Some(code) = signal.code {
         return code.vehicle_acceleration();
@@ -424,7 +425,7 @@ fn acceleration(signal: &Signal) -> Option<(String, usize)> {
     }
 }
 
-/// Says if places of the vehicle tell of other velocity changes, by more than a tenth.
+/// Notes if locations of the vehicle give velocity changes that differ by more than a tenth.
 fn say_if_places_differ(recording: &Recording, notes: &mut Vec<String>) {
     let changes = velocity_changes(recording);
     let of = |pick: fn(f64, f64) -> f64| changes.iter().map(|(_, v)| *v).reduce(pick);
@@ -438,7 +439,7 @@ fn say_if_places_differ(recording: &Recording, notes: &mut Vec<String>) {
     }
 }
 
-/// The velocity change ahead of each place with an accelerometer that looks ahead, m/s.
+/// Longitudinal velocity change at each location with a longitudinal accelerometer, m/s.
 fn velocity_changes(recording: &Recording) -> Vec<(String, f64)> {
     let mut found: Vec<(String, f64)> = Vec::new();
     for signal in &recording.signals {

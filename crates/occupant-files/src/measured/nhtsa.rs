@@ -11,7 +11,7 @@ use super::super::signals::{Recording, Signal, finite, scale_of};
 use super::super::trouble::Trouble;
 use crate::base::{Failure, ending, input_file, sha256};
 
-/// What the record says of the test besides its curves.
+/// Metadata of the test.
 #[derive(Clone, Debug, Default)]
 pub struct TestRecord {
     /// Its title.
@@ -20,7 +20,7 @@ pub struct TestRecord {
     pub speed_km_h: Option<f64>,
 }
 
-/// A line of INSTRUMENTATION: its fields and where it stands.
+/// A line of INSTRUMENTATION: its fields and position.
 struct Curve<'a> {
     line: usize,
     fields: Vec<&'a str>,
@@ -39,7 +39,7 @@ const REDUNDANT: usize = 18;
 /// Field of VEHICLE with its speed.
 const SPEED: usize = 41;
 
-/// NHTSA's words for units, and ours.
+/// NHTSA's unit names, and ours.
 const UNITS: [(&str, &str); 11] = [
     ("G'S", "g"),
     ("NWT", "N"),
@@ -54,7 +54,7 @@ const UNITS: [(&str, &str); 11] = [
     ("SEC", "s"),
 ];
 
-/// NHTSA's places of sensors, and main and fine locations 1 to 3 of ISO-MME.
+/// NHTSA's sensor locations, and main and fine locations 1 to 3 of ISO-MME.
 const PLACES: [(&str, &str); 10] = [
     ("HDCG", "HEADCG0000"),
     ("NEKU", "NECKUP0000"),
@@ -77,7 +77,7 @@ pub(super) fn header(path: &Path) -> Option<PathBuf> {
     }
 }
 
-/// Reads a test by its record; `vehicle` is the one that is looked at.
+/// Reads a test by its header file; `vehicle` is the selected one.
 ///
 /// # Errors
 /// Files that cannot be read, and what is wrong in them.
@@ -153,7 +153,7 @@ fn parsed<'a>(header: &Path, text: &'a str, vehicle: u32) -> Result<(TestRecord,
 }
 
 impl Curve<'_> {
-    /// What the test says of it, or its name.
+    /// Title of the test, or its name.
     fn words(&self) -> String {
         self.fields.get(19).filter(|words| !words.is_empty()).map_or_else(|| self.own_name(), |w| (*w).to_owned())
     }
@@ -166,7 +166,7 @@ impl Curve<'_> {
         name
     }
 
-    /// Its code; none of redundant sensors, and of what has no place or seat that is known.
+    /// Its code; none for redundant sensors and unknown locations or seats.
     fn code(&self) -> Option<Code> {
         let place = PLACES.iter().find(|(name, _)| *name == self.fields[PLACE])?.1;
         let seat = match self.fields[SEAT] {

@@ -15,12 +15,12 @@ use crate::base::Failure;
 use crate::history::filtered;
 use crate::signals::{Recording, Signal, scale_of};
 
-/// A channel that a signal may belong to.
+/// A channel to be matched with a signal.
 #[derive(Clone, Debug)]
 pub struct Wanted {
     /// The channel of a run.
     pub name: String,
-    /// What it measures and in which unit; none if it is itself measured and gives no unit.
+    /// Its dimension and unit; none if it is itself measured and has no unit.
     pub unit: Option<(Dimension, String)>,
 }
 
@@ -37,7 +37,7 @@ impl From<&Signal> for Wanted {
     }
 }
 
-/// `column[unit]=channel`, with `-channel` if the signs are opposite.
+/// `column[unit]=channel`, with `-channel` for opposite signs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapArgument {
     column: String,
@@ -47,7 +47,7 @@ pub struct MapArgument {
 }
 
 impl MapArgument {
-    /// The channel that it names.
+    /// Name of the channel.
     pub fn channel(&self) -> &str {
         &self.channel
     }
@@ -81,10 +81,10 @@ impl fmt::Display for MapArgument {
     }
 }
 
-/// A measured signal in a channel's unit and axes.
+/// A measured signal converted to a channel's unit and axes.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    /// Index among the wanted channels.
+    /// Index among the channels to be matched.
     pub channel: usize,
     /// Name of the signal.
     pub signal: String,
@@ -95,7 +95,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// The values filtered, as the channel is.
+    /// Filters the values like the channel.
     ///
     /// # Errors
     /// Missing values, samples that are not equally spaced or too far apart.
@@ -112,7 +112,7 @@ impl Pair {
     }
 }
 
-/// Pairs for these channels, in their order, and what was taken for granted.
+/// Pairs for these channels, in their order, and the assumptions made.
 ///
 /// `seat` is the ISO-MME position of the occupant.
 ///
@@ -188,7 +188,7 @@ fn signal_for<'a>(
     }
 }
 
-/// SI units in one of the signal's.
+/// SI value of one unit of the signal.
 fn factor(
     recording: &Recording,
     signal: &Signal,
@@ -226,7 +226,7 @@ fn factor(
     }
 }
 
-/// Names of signals for a message.
+/// Names of signals, for a message.
 fn names(signals: &[Signal]) -> String {
     let mut names: Vec<&str> = signals.iter().take(12).map(|s| s.name.as_str()).collect();
     if signals.len() > names.len() {

@@ -15,23 +15,23 @@ use crate::base::Failure;
 use crate::signals::{Recording, Signal, scale_of, seconds_in};
 use crash_measures::signal::usual_interval;
 
-/// So many problems of a table are shown.
+/// Largest number of problems shown.
 const SHOWN: usize = 8;
-/// So many times that do not increase are shown each.
+/// Largest number of non-increasing times shown.
 const EACH: usize = 3;
 
 #[derive(Clone, Debug)]
 struct Heading {
     name: String,
     unit: Option<String>,
-    /// What its numbers are multiplied by: −1 where `--columns` turns them.
+    /// Sign: −1 if reversed by `--columns`.
     sign: f64,
-    /// Where its unit stands, or it itself.
+    /// Position of its unit, or of the heading.
     span: Span,
 }
 
 impl Heading {
-    /// A heading of the file, or of `--columns`; `below` is the unit that stands in a line of its own.
+    /// A heading of the file, or of `--columns`; `below` is the unit from a separate line.
     fn of(cell: &Cell, below: Option<(&str, Span)>) -> Self {
         let (name, unit) = name_and_unit(cell.text);
         let (name, sign) = match name.strip_prefix('-').filter(|rest| !rest.is_empty()) {
@@ -53,7 +53,7 @@ impl Heading {
     }
 }
 
-/// A heading's name and a unit that is its last word, as `dV long MPH`; a unit of time alone is the time.
+/// Name and unit of a heading whose last word is a unit, as in `dV long MPH`; a unit of time alone means the time.
 fn in_words(heading: &str) -> Option<(&str, &str)> {
     if seconds_in(heading).is_some_and(|_| heading.len() > 1) {
         return Some(("t", heading));
@@ -64,7 +64,7 @@ fn in_words(heading: &str) -> Option<(&str, &str)> {
         .then(|| (name.trim_end_matches(['_', ',', ' ']), unit))
 }
 
-/// Reads a table; `columns` names its columns in place of its headings, `-` one that is left out, `-NAME` one whose sign is turned.
+/// Reads a table; `columns` replaces its headings: `-` skips a column, `-NAME` reverses its sign.
 ///
 /// # Errors
 /// Problems of it.
@@ -106,7 +106,7 @@ pub fn read(path: &Path, text: &str, columns: Option<&str>, sha256: String) -> R
     Ok(Recording { path: path.to_owned(), sha256, signals, notes })
 }
 
-/// Headings; numbers from 1 where the table has none.
+/// Headings; numbers from 1 if the table has none.
 fn headings(table: &TextTable, columns: usize) -> Vec<Heading> {
     if table.headings.is_empty() {
         let number = |i: usize| Heading { name: i.to_string(), unit: None, sign: 1.0, span: table.first };
@@ -120,7 +120,7 @@ fn headings(table: &TextTable, columns: usize) -> Vec<Heading> {
     table.headings.iter().enumerate().map(heading).collect()
 }
 
-/// The column called time, else the first.
+/// The column named time, else the first.
 fn time_column(headings: &[Heading]) -> usize {
     let named = |h: &Heading| h.name == "time_s" || column_named(&h.name) == Some("t");
     headings.iter().position(named).unwrap_or(0)
@@ -153,7 +153,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What was passed over.
+    /// Notes on skipped lines.
     fn about(&self, table: &TextTable) -> Vec<String> {
         let mut notes = Vec::new();
         let line = |span: Span| self.sources.position(span).line;
@@ -166,7 +166,8 @@ impl Reader<'_> {
         notes
     }
 
-    /// Times in steps of 5 and more, or over a minute and more, without a unit are milliseconds as likely as seconds.
+    /// Reports times without a unit in steps of 5 or more, or over a minute or more: they may be milliseconds or
+    /// seconds.
     fn ask_for_the_unit(&mut self, time: usize, time_s: &[f64], first: Span) {
         let is_told = self.headings.get(time).is_none_or(|h| h.unit.is_some() || h.name.ends_with("_s"));
         if is_told || time_s.len() < 3 || !self.problems.is_empty() {
@@ -194,7 +195,7 @@ impl Reader<'_> {
         Failure::CouldNotRun(self.problems.abridged(SHOWN).to_string())
     }
 
-    /// Numbers column by column, as far as lines are right.
+    /// Numbers by column, as far as lines are valid.
     fn columns(&mut self, lines: &[Span], time: usize, notes: &mut Vec<String>) -> Vec<Vec<f64>> {
         let words = self.columns_of_words(lines, time);
         for (heading, _) in
@@ -225,7 +226,7 @@ impl Reader<'_> {
         columns
     }
 
-    /// Which columns are to be left out: those of the heading `-`, and those of which most cells are words.
+    /// Columns to leave out: those with the heading `-`, and those with mostly text.
     fn columns_of_words(&self, lines: &[Span], time: usize) -> Vec<bool> {
         let mut counts = vec![[0, 0]; self.headings.len()];
         for line in lines {
@@ -240,7 +241,7 @@ impl Reader<'_> {
         counts.iter().zip(&self.headings).enumerate().map(of).collect()
     }
 
-    /// A number; none is missing where the cell says so.
+    /// A number; NaN if the cell marks a missing value.
     fn number(&mut self, cell: &Cell) -> f64 {
         if let Some(number) = number_in(self.separator, cell) {
             return number;
@@ -297,7 +298,7 @@ impl Reader<'_> {
     }
 }
 
-/// The number of a cell; of two in one cell, `-12.4 [-20]`, the first.
+/// Number of a cell; if there are two, `-12.4 [-20]`, the first.
 fn number_in(separator: Separator, cell: &Cell) -> Option<f64> {
     let first = || {
         let (first, _) = cell.text.strip_suffix(']')?.split_once('[')?;

@@ -15,9 +15,9 @@ const DAQMX: u32 = 1 << 7;
 const NEW_LIST: u32 = 1 << 2;
 const METADATA: u32 = 1 << 1;
 const RAW: u32 = 1 << 3;
-/// Length of the head of a segment.
+/// Length of the header of a segment.
 const HEAD: usize = 28;
-/// Most values of all channels together.
+/// Largest number of values of all channels.
 const MOST_VALUES: usize = 20_000_000;
 
 /// A channel, a group or the file.
@@ -25,7 +25,7 @@ const MOST_VALUES: usize = 20_000_000;
 struct Object {
     path: String,
     properties: Vec<(String, Property)>,
-    /// Type and number of its values in a chunk.
+    /// Type and number of its values per chunk.
     index: Option<(u32, usize)>,
     values: Vec<f64>,
 }
@@ -84,14 +84,14 @@ impl Object {
         self.properties.iter().find_map(text)
     }
 
-    /// Seconds in one of its values, if it is a channel of times.
+    /// Seconds per unit of its values, if it is a time channel.
     fn seconds(&self) -> Option<f64> {
         let name = self.names().pop()?.to_lowercase();
         let is_time = ["time", "t", "zeit", "x"].iter().any(|own| name == *own || name.starts_with(&format!("{own} ")));
         is_time.then(|| self.unit().and_then(|unit| seconds_in(&unit)).unwrap_or(1.0))
     }
 
-    /// As a signal; none of a channel of times.
+    /// As a signal; none for a time channel.
     fn signal(&self, all: &[Object], path: &Path) -> Result<Option<Signal>, String> {
         let mut names = self.names();
         let name = names.pop().unwrap_or_default();
@@ -174,7 +174,7 @@ fn objects(bytes: &[u8]) -> Result<Vec<Object>, String> {
     if all.is_empty() { Err("no segment".to_owned()) } else { Ok(all) }
 }
 
-/// Numbers one behind the other.
+/// Reader of consecutive numbers.
 struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -209,7 +209,7 @@ impl Words<'_> {
         Ok(String::from_utf8_lossy(part).into_owned())
     }
 
-    /// A number of a type; none of a type that is no number.
+    /// A number of a type; none for a non-numeric type.
     fn number(&mut self, kind: u32) -> Result<Option<f64>, String> {
         Ok(Some(match kind {
             1 => f64::from(i8::from_le_bytes(self.take()?)),
@@ -230,7 +230,7 @@ impl Words<'_> {
         }))
     }
 
-    /// The objects of a segment; `active` are those that its raw data hold, in order.
+    /// The objects of a segment; `active` are those in its raw data, in order.
     fn metadata(&mut self, all: &mut Vec<Object>, active: &mut Vec<usize>, is_new: bool) -> Result<(), String> {
         if is_new {
             active.clear();
@@ -267,7 +267,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// The raw data up to the end: chunks of all active objects.
+    /// Raw data to the end: chunks of all active objects.
     fn raw(&mut self, all: &mut [Object], active: &[usize], is_interleaved: bool) -> Result<(), String> {
         let indices: Vec<(usize, u32, usize)> =
             active.iter().filter_map(|&at| all[at].index.map(|(kind, count)| (at, kind, count))).collect();

@@ -11,29 +11,29 @@ use super::super::trouble::Trouble;
 use super::Axes;
 use crate::base::{Failure, ending, input_file, sha256};
 
-/// Names of the columns as paths of scenarios have them; lengths, then angles.
+/// Names of the columns, as in paths of scenarios; lengths, then angles.
 const COLUMNS: [&str; 6] = ["x", "y", "z", "yaw", "pitch", "roll"];
 
 /// Time, then [`COLUMNS`].
 type Row = [f64; 7];
 
-/// What a program writes.
+/// Table layout of a program.
 struct Layout {
-    /// Its headings of [`Row`], in small letters.
+    /// Headings of [`Row`], in lower case.
     heads: [&'static str; 7],
-    /// The heading of the object's name, where a table holds several.
+    /// Heading of the object's name, if a table has several objects.
     object: Option<&'static str>,
-    /// Units of lengths and angles whose headings tell none.
+    /// Units of lengths and angles without a unit in their headings.
     units: [&'static str; 2],
-    /// Which way its axes point.
+    /// Direction of the axes.
     axes: Axes,
-    /// What to know of it.
+    /// Note for the user.
     note: Option<&'static str>,
-    /// What to know where headings tell no units.
+    /// Note if headings have no units.
     without_units: Option<&'static str>,
 }
 
-/// Of OpenSCENARIO, and of esmini.
+/// OpenSCENARIO and esmini.
 const OPEN: Layout = Layout {
     heads: ["time", "x", "y", "z", "h", "p", "r"],
     object: Some("name"),
@@ -69,7 +69,7 @@ const LAYOUTS: [Layout; 3] = [
     },
 ];
 
-/// A trajectory as its file has it, with the units of [`COLUMNS`].
+/// A trajectory as in its file, with the units of [`COLUMNS`].
 struct Found {
     rows: Vec<Row>,
     layout: &'static Layout,
@@ -77,8 +77,8 @@ struct Found {
     notes: Vec<String>,
 }
 
-/// Reads the trajectory of `object` (of the only one, if absent) or of the vehicle of this number (of the first, if absent), and which way its axes point; none of a file that
-/// holds none.
+/// Reads the trajectory of `object` (of the only one, if absent) or of the vehicle of this number (of the first, if
+/// absent), with its axes; none if the file has none.
 ///
 /// # Errors
 /// What cannot be read, and what is wrong in it.
@@ -126,7 +126,7 @@ pub(super) fn read(
     Ok(Some((Recording { path: path.to_owned(), sha256: sha256(&bytes), signals, notes }, layout.axes)))
 }
 
-/// Refuses a vehicle that is asked for by another number than 1, where the file numbers none.
+/// Refuses a vehicle number other than 1 if the file has no numbers.
 pub(super) fn one_vehicle(path: &Path, vehicle: Option<u32>) -> Result<(), Trouble> {
     match vehicle {
         None | Some(1) => Ok(()),
@@ -142,7 +142,7 @@ impl Layout {
         std::array::from_fn(|i| self.units[i / 3].to_owned())
     }
 
-    /// The columns of [`Row`] and of the object's name for a vehicle; time and name may be common to all.
+    /// Columns of [`Row`] and of the object's name for a vehicle; time and name may be common to all.
     fn columns(&self, heads: &[(String, Option<u32>)], vehicle: u32) -> Option<Vec<usize>> {
         let own = |name: &str| heads.iter().position(|(head, of)| head == name && of.unwrap_or(1) == vehicle);
         let common = |name: &str| heads.iter().position(|(head, _)| head == name);
@@ -152,7 +152,7 @@ impl Layout {
         std::iter::once(time).chain(rest).chain(self.object.map(common)).collect()
     }
 
-    /// Seconds in the unit of the time, and the units of [`COLUMNS`], as the table tells them.
+    /// Seconds per unit of time, and the units of [`COLUMNS`], from the table.
     fn units_in(&self, path: &Path, table: &TextTable, columns: &[usize], line: usize) -> Result<Units, Trouble> {
         let told = |i: usize| table.unit(columns[i]).map(|(unit, _)| unit);
         let heading = |i: usize| table.headings[columns[i]].text;
@@ -178,10 +178,10 @@ impl Layout {
     }
 }
 
-/// Seconds in the unit of the time, the units of [`COLUMNS`], and what to know of them.
+/// Seconds per unit of time, the units of [`COLUMNS`], and a note on them.
 type Units = (f64, [String; 6], Option<String>);
 
-/// The object that is asked for, or the only one.
+/// The requested object, or the only one.
 fn chosen(path: &Path, names: &[String], object: Option<&str>) -> Result<usize, Trouble> {
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
     let (found, hint) = match (object, names) {
@@ -196,17 +196,17 @@ fn chosen(path: &Path, names: &[String], object: Option<&str>) -> Result<usize, 
     Err(Trouble::of(path, found, if known.is_empty() { "one".to_owned() } else { one_of(&known, '`') }).hint(hint))
 }
 
-/// A heading without its unit, and the number of its vehicle.
+/// A heading without its unit, and its vehicle number.
 fn bare(heading: &str) -> (String, Option<u32>) {
     let whole = name_and_unit(heading).0;
     let name = whole.trim_end_matches(|c: char| c.is_ascii_digit());
     (name.to_lowercase(), whole[name.len()..].parse().ok())
 }
 
-/// Vehicles of a table by number, each with the places of its columns.
+/// Vehicles of a table by number, each with the indices of its columns.
 type Vehicles = Vec<(u32, Vec<usize>)>;
 
-/// The program that these headings tell of, and the columns of each vehicle.
+/// The layout that matches these headings, and the columns of each vehicle.
 fn layout_of(headings: &[Cell]) -> Option<(&'static Layout, Vehicles)> {
     let heads: Vec<_> = headings.iter().map(|heading| bare(heading.text)).collect();
     let mut numbers: Vec<u32> = heads.iter().map(|(_, number)| number.unwrap_or(1)).collect();
@@ -217,7 +217,7 @@ fn layout_of(headings: &[Cell]) -> Option<(&'static Layout, Vehicles)> {
     LAYOUTS.iter().map(|l| (l, vehicles(l))).find(|(_, vehicles)| !vehicles.is_empty())
 }
 
-/// The columns of the vehicle that is asked for, or of the first, and a note on others.
+/// Columns of the requested vehicle, or of the first, with a note on others.
 fn own_columns(path: &Path, vehicles: Vehicles, asked: Option<u32>) -> Result<(Vec<usize>, Option<String>), Trouble> {
     let numbers: Vec<String> = vehicles.iter().map(|(number, _)| number.to_string()).collect();
     let note = (asked.is_none() && numbers.len() > 1).then(|| {
@@ -247,7 +247,7 @@ fn of_table(path: &Path, text: &str, vehicle: Option<u32>, object: Option<&str>)
     Ok(Some(Found { rows, layout, units, notes }))
 }
 
-/// The rows of the object that is asked for, times in the table's own unit.
+/// Rows of the requested object, times in the table's unit.
 fn rows(
     path: &Path,
     sources: &Sources,
@@ -281,10 +281,10 @@ fn rows(
     Ok(rows.into_iter().filter(|(name, _)| *name == own).map(|(_, row)| row).collect())
 }
 
-/// An element with more attributes is none of OpenSCENARIO, and the parser compares each with all others.
+/// Largest number of attributes of an element; the parser compares each with all others.
 const MOST_ATTRIBUTES: usize = 200;
 
-/// The largest number of attributes of an element of XML, in one pass.
+/// Largest number of attributes of an XML element, in one pass.
 fn most_attributes(text: &str) -> usize {
     let (mut most, mut rest) = (0, text);
     while let Some(at) = rest.find('<') {
@@ -354,7 +354,7 @@ fn of_scenario(path: &Path, text: &str, object: Option<&str>) -> Result<Vec<Row>
     vertices.iter().map(row).collect()
 }
 
-/// The object that follows a trajectory, or the trajectory's own name.
+/// The object that follows a trajectory, or the trajectory's name.
 fn name_of(trajectory: Node) -> String {
     let entity = |node: Node| match node.tag_name().name() {
         "Private" => node.attribute("entityRef").map(str::to_owned),

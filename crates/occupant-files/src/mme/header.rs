@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// Text of a file: UTF-8, else ISO 8859-1, which older tests are written in.
+/// Text of a file: UTF-8, else ISO 8859-1 as in older tests.
 pub fn text_of(bytes: Vec<u8>) -> String {
     match String::from_utf8(bytes) {
         Ok(text) => text,
@@ -27,7 +27,7 @@ impl Header {
         self.0.push((name.to_owned(), value.to_owned(), line));
     }
 
-    /// The value of a name in any case, with its line; none for `NOVALUE` and blanks.
+    /// Value of a name, ignoring case, with its line; none for `NOVALUE` and blanks.
     pub fn get(&self, name: &str) -> Option<(&str, usize)> {
         let found = self.0.iter().find(|(n, ..)| n.eq_ignore_ascii_case(name))?;
         let value = found.1.as_str();

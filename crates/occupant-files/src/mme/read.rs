@@ -49,7 +49,7 @@ fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Files `NAME.001` and on, beside the .mme file in the folder `Channel`.
+/// Files `NAME.001` and following, next to the .mme file in the folder `Channel`.
 fn channel_files(mme: &Path) -> Result<Vec<PathBuf>, Failure> {
     let folder = mme.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
@@ -135,7 +135,7 @@ impl RawChannel {
         named.map_or_else(|| file_name(&self.path), |(name, _)| name.to_owned())
     }
 
-    /// Times, s: counted from the header, or those of the channel that it refers to.
+    /// Times, s: from the header, or those of the reference channel.
     fn times(&self, all: &[RawChannel]) -> Result<Vec<f64>, Trouble> {
         let reference = self.header.get("Reference channel").map(|(r, _)| r.to_lowercase());
         if reference.as_deref() != Some("explicit") {

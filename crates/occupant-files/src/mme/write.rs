@@ -11,7 +11,7 @@ use super::header::write;
 use crate::channel_code::{Code, Place, place_of};
 use crate::history::{Column, Histories};
 
-/// What the test says of itself.
+/// Metadata of the test.
 #[derive(Clone, Debug)]
 pub struct Labels {
     /// Name of the test and of its files.
@@ -28,10 +28,10 @@ pub struct Labels {
     pub remarks: Vec<String>,
 }
 
-/// A file's place in the test's folder, and its text.
+/// A file's path in the test's folder, and its text.
 type NamedText = (PathBuf, String);
 
-/// The files of a test with their places in its folder, and the channels that the dictionary has no code for.
+/// The files of a test with their paths in its folder, and the channels without a code.
 ///
 /// # Errors
 /// Times that are not equally spaced, channels without a value for each, or no channel with a code.
@@ -108,7 +108,7 @@ fn channel_file(column: &Column, place: &Place, code: &Code, interval_s: f64, fi
     text
 }
 
-/// Units as ISO-MME files have them.
+/// Unit names in ISO-MME files.
 const fn unit(unit: Unit) -> &'static str {
     match unit {
         Unit::MetrePerSecondSquared => "m/(s*s)",

@@ -8,20 +8,20 @@ use occupant_core::results::sample::Sample;
 
 use super::Failure;
 
-/// Whether the work was asked to stop; as a recorder it stops the run then.
+/// A request to stop the work; as a recorder it stops the run.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
-    /// Set by whoever asks.
+    /// Set by the caller.
     pub asked: Arc<AtomicBool>,
 }
 
 impl Interrupt {
-    /// Whether it was asked to stop.
+    /// Whether stopping was requested.
     pub fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed)
     }
 
-    /// Ends the work once it was asked to.
+    /// Aborts the work if stopping was requested.
     ///
     /// # Errors
     /// Interrupted, and what was done before.
@@ -29,7 +29,7 @@ impl Interrupt {
         if self.is_asked() { Err(Interrupt::failure(done)) } else { Ok(()) }
     }
 
-    /// Interrupted, and what was done before.
+    /// Failure of an interrupted job, with a note on what was done before.
     pub fn failure(done: &str) -> Failure {
         Failure::BrokeOff("error: interrupted".to_owned()).with_done(done)
     }

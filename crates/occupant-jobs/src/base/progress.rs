@@ -19,26 +19,26 @@ pub trait Bar: Send + Sync {
     fn clear(&self);
 }
 
-/// What a job shows of its progress.
+/// Progress display of a job.
 #[derive(Clone, Copy)]
 pub struct Show {
     /// Only warnings and errors.
     pub quiet: bool,
-    /// Makes a bar of a number of items, such as `samples`; none if nothing can show one.
+    /// Makes a bar for a number of items, such as `samples`; none where none can be displayed.
     pub bar: fn(u64, &str) -> Option<Box<dyn Bar>>,
 }
 
 impl Show {
-    /// Shows nothing.
+    /// No display.
     pub const NOTHING: Show = Show { quiet: true, bar: |_, _| None };
 
-    /// A bar of `all` items called `what`, unless nothing is to be shown.
+    /// A bar of `all` items called `what`, unless the display is off.
     pub fn bar(self, all: u64, what: &str) -> Option<Box<dyn Bar>> {
         if self.quiet { None } else { (self.bar)(all, what) }
     }
 }
 
-/// Progress of many runs: a bar, otherwise a line now and then.
+/// Progress of many runs: a bar, or else occasional lines.
 pub struct Runs {
     bar: Option<Box<dyn Bar>>,
     all: u64,
@@ -79,7 +79,7 @@ impl Runs {
         self.began.elapsed().as_secs_f64()
     }
 
-    /// Count, rate and time to go, as text.
+    /// Count, rate and remaining time, as text.
     pub fn words(&self, done: u64) -> String {
         let (all, what) = (self.all, self.what);
         let computed = done.saturating_sub(self.before);
@@ -94,12 +94,12 @@ impl Runs {
         format!("{done} of {all} {what}, {rate:.1}/s, {to_go_s:.0} s to go")
     }
 
-    /// The bar, where there is one.
+    /// The bar, if there is one.
     pub fn bar(&self) -> Option<&dyn Bar> {
         self.bar.as_deref()
     }
 
-    /// Whether lines are written and none was written for a while.
+    /// Whether the next line is due.
     pub fn is_line_due(&self) -> bool {
         !self.quiet && self.line.elapsed() > self.every
     }

@@ -2,15 +2,15 @@
 
 use super::Failure;
 
-/// The target of everything that is said here.
+/// Log target of all messages here.
 pub const TARGET: &str = "occupant";
 
-/// Says a message.
+/// Reports a message.
 pub fn say(text: &str) {
     log::info!(target: TARGET, "{text}");
 }
 
-/// Says what to know of a result.
+/// Reports a note on a result.
 pub fn note(text: &String) {
     say(&format!("note: {text}"));
 }

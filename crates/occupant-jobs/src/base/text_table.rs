@@ -3,10 +3,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// How a column is set.
+/// Alignment of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// Words.
+    /// Text.
     Left,
     /// Numbers.
     Right,
@@ -19,17 +19,17 @@ pub struct Table {
     rows: Vec<Vec<String>>,
 }
 
-/// Blanks between columns, fewer where there is no room.
+/// Blanks between columns, fewer if space is short.
 const GAPS: [usize; 3] = [3, 2, 1];
-/// Columns that a table may take where standard output is no terminal.
+/// Width of a table, characters, if standard output is no terminal.
 const PLAIN: usize = 80;
-/// No column of words is made narrower.
+/// Least width of a text column.
 const LEAST: usize = 10;
-/// Stands where there is no figure.
+/// Shown where there is no value.
 pub const NONE: &str = "–";
 
 impl Table {
-    /// A table whose head is made of lists of names that are set alike.
+    /// A table with lists of headings of the same alignment.
     pub fn new(heads: &[(Align, &[&str])]) -> Self {
         let names = || heads.iter().flat_map(|(align, names)| names.iter().map(move |name| (*align, *name)));
         Table {
@@ -43,13 +43,13 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// The text, each line ended, no blanks at line ends, as wide as the terminal at most.
+    /// The text, each line ended, without trailing blanks, at most as wide as the terminal.
     pub fn text(&self) -> String {
         let (room, is_terminal) = room();
         self.within(room, is_terminal)
     }
 
-    /// The text in so many columns; where it is to be read by people only, names are broken before it grows wider.
+    /// The text within a number of characters; for human readers, names are broken before it becomes wider.
     fn within(&self, room: usize, breaks_names: bool) -> String {
         let whole = self.widths(length);
         let fits = |widths: &[usize], gap: &&usize| {
@@ -83,7 +83,7 @@ impl Table {
         (0..self.columns.len()).map(|column| width(column).unwrap_or(0)).collect()
     }
 
-    /// The widths of what stands below the heads.
+    /// Widths of the body columns.
     fn body_widths(&self) -> Vec<usize> {
         let body = Table { columns: self.columns.clone(), rows: self.rows.iter().skip(1).cloned().collect() };
         body.widths(length)
@@ -111,15 +111,15 @@ impl Table {
     }
 }
 
-/// Columns of the terminal; 0 where there is none.
+/// Width of the terminal, characters; 0 without one.
 static TERMINAL: AtomicUsize = AtomicUsize::new(0);
 
-/// From now on tables are to be read on a terminal of so many columns.
+/// Fits tables to a terminal of this width from now on.
 pub fn fit_terminal(columns: u16) {
     TERMINAL.store(usize::from(columns).max(PLAIN / 2), Ordering::Relaxed);
 }
 
-/// Columns that there are, and whether they are those of a terminal.
+/// Available width, and whether it is that of a terminal.
 fn room() -> (usize, bool) {
     match TERMINAL.load(Ordering::Relaxed) {
         0 => (PLAIN, false),
@@ -131,12 +131,12 @@ fn length(cell: &str) -> usize {
     cell.chars().count()
 }
 
-/// What a cell can be broken into: words, and the parts of names.
+/// Pieces into which a cell may be broken: words, and parts of names.
 fn pieces(cell: &str) -> impl Iterator<Item = &str> {
     cell.split(' ').flat_map(|word| word.split_inclusive('_'))
 }
 
-/// The lines of a cell, broken at blanks, and in a name where it alone is too wide.
+/// Lines of a cell, broken at blanks, and within a name that is too wide alone.
 fn wrapped(cell: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut put = |gap: &str, piece: &str| match lines.last_mut() {
@@ -164,14 +164,14 @@ pub fn table<R: IntoIterator<Item = String>>(heads: &[(Align, &[&str])], rows: i
 
 pub use placed_text::{trimmed, without_zeros};
 
-/// A number with so many decimals; one that no column holds, with an exponent.
+/// A number with this many decimals; with an exponent if it is too wide.
 pub fn number(value: f64, decimals: usize) -> String {
     let digits = if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") };
     let is_nothing = digits.bytes().all(|digit| b"-0.".contains(&digit));
     if is_nothing { digits.replace('-', "") } else { digits }
 }
 
-/// Two columns of words without a head: a name and its description, which is broken where a terminal is too narrow.
+/// Two text columns without headings: names and descriptions, wrapped on narrow terminals.
 pub fn facts(facts: &[(&str, String)]) -> String {
     let (room, is_terminal) = room();
     facts_within(facts, if is_terminal { room } else { usize::MAX })

@@ -7,36 +7,36 @@ use occupant_units::unit::{Shown, Unit};
 
 use super::text_table::number;
 
-/// Units of what is printed or drawn.
+/// Units of printed and drawn numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Units {
-    /// Which units.
+    /// The system.
     pub system: UnitSystem,
-    /// Whether they were asked for, whatever the scenario says.
+    /// Whether it was requested, overriding the scenario's.
     is_asked: bool,
 }
 
-/// A unit of figures, SI, and how people are told it.
+/// SI unit of a figure, and its display unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Told {
-    /// As figures have it.
+    /// SI unit.
     pub si: String,
-    /// SI units in one that is shown, and its symbol; empty for a plain number.
+    /// SI value of one display unit, and its symbol; empty for a plain number.
     pub shown: (f64, String),
 }
 
 impl Units {
-    /// The units asked for, or those of a scenario.
+    /// The requested units, or those of a scenario.
     pub fn asked(units: Option<UnitSystem>, scenario: Option<UnitSystem>) -> Self {
         Units { system: units.or(scenario).unwrap_or_default(), is_asked: units.is_some() }
     }
 
-    /// Those of a scenario.
+    /// Units of a scenario.
     pub fn of_scenario(system: UnitSystem) -> Self {
         Units { system, is_asked: false }
     }
 
-    /// What is shown for a unit of a table, and how many of that unit are one of it; none if it stays as it is.
+    /// Display unit instead of a table's unit, and its size in that unit; none if unchanged.
     fn instead(self, unit: &str) -> Option<(f64, Shown)> {
         let (measured, si) = Unit::measuring(unit).filter(|_| self.system == UnitSystem::InchPound)?;
         let dimension = measured.dimension();
@@ -45,12 +45,12 @@ impl Units {
         (!is_ours && shown.si != si).then_some((shown.si / si, shown))
     }
 
-    /// How many of a unit are one of what is shown for it, and the symbol of that.
+    /// Size of the display unit in a unit, and its symbol.
     pub fn over(self, unit: &str) -> (f64, String) {
         self.instead(unit).map_or_else(|| (1.0, unit.to_owned()), |(per, shown)| (per, shown.symbol()))
     }
 
-    /// The symbol that is shown for a unit of a table.
+    /// Symbol of the display unit for a table's unit.
     pub fn symbol(self, unit: &str) -> String {
         self.over(unit).1
     }
@@ -62,7 +62,8 @@ impl Units {
             .map_or_else(|| heading.to_owned(), |(of, unit)| format!("{of}, {}", self.symbol(unit)))
     }
 
-    /// A number that is given in a unit, with so many decimals there, and about as many digits elsewhere.
+    /// A number in the display unit of `unit`, with this many decimals in `unit` and a similar number of digits
+    /// otherwise.
     pub fn number(self, value: f64, unit: &str, decimals: usize) -> String {
         let Some((per, _)) = self.instead(unit) else { return number(value, decimals) };
         let decimals = (decimals as f64 + per.log10().trunc()).max(0.0);
@@ -79,7 +80,7 @@ impl Units {
         format!("{} {}", self.number(value, unit, decimals), self.symbol(unit))
     }
 
-    /// A figure's unit, SI.
+    /// Display unit of a figure in SI.
     pub fn told(self, si: &str) -> Told {
         let shown = Unit::measuring(si).map(|(unit, _)| unit.shown_to_people(self.system == UnitSystem::InchPound));
         let plain = if si == "1" { "" } else { si };
@@ -88,7 +89,7 @@ impl Units {
 }
 
 impl Units {
-    /// The unit of a parameter of a study: that in which the scenario writes it, unless others were asked for.
+    /// Display unit of a study's parameter: the unit of the scenario, unless others were requested.
     pub fn told_of(self, parameter: &Parameter, base: &Draft) -> Told {
         let place = parameter.targets.first().filter(|_| !self.is_asked && !parameter.unit.is_empty());
         match place.and_then(|target| base.unit_at(&target.path)).filter(|(_, si)| *si != 1.0) {

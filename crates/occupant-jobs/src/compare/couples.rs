@@ -11,13 +11,13 @@ use occupant_files::results::Results;
 use occupant_files::signals::Recording;
 use occupant_pictures::plot::standard;
 
-/// Largest value of a history that counts as zero throughout.
+/// Largest value of a history that counts as zero.
 const ZERO: f64 = 1e-100;
 
 /// A computed and a measured history of one channel, both filtered.
 pub(super) struct Couple {
     pub(super) channel: String,
-    /// The filter class that was applied.
+    /// Filter class applied.
     pub(super) class: Option<ChannelClass>,
     pub(super) time_s: Vec<f64>,
     pub(super) values: Vec<f64>,
@@ -27,7 +27,7 @@ pub(super) struct Couple {
 /// All couples, and the SHA-256 of both sides.
 type Coupled = (Vec<Couple>, [String; 2]);
 
-/// The couples that the request asks for.
+/// The requested couples.
 ///
 /// # Errors
 /// Files that cannot be read, names that are unknown, signals that cannot be filtered.
@@ -140,8 +140,8 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
     Ok((couples, [run.sha256.clone(), other.sha256]))
 }
 
-/// Without the channels whose class the outputs of a run are too far apart for, which is noted: with classes by SAE J211 each channel is
-/// compared that can be. A single class is asked for of every channel, and `load` refuses where one cannot have it.
+/// Drops channels whose class needs denser outputs than the run has, with a note, if classes are chosen by SAE J211. If
+/// one class is requested for all channels, `load` refuses such a channel.
 fn filterable(
     channels: Vec<Channel>,
     runs: &[&Results],

@@ -18,23 +18,23 @@ use rating::{Rating, rate};
 
 pub use rating::{RATE_HZ, Track, Window, overlap, sampled};
 
-/// What is compared, and how.
+/// A requested comparison.
 pub struct Request<'a> {
     /// Results of a run.
     pub computed: &'a Path,
-    /// What was measured.
+    /// The measured signals.
     pub measured: &'a Path,
-    /// Names and patterns; all that both have if empty.
+    /// Names and patterns; all common channels if empty.
     pub channels: &'a [String],
-    /// Which signal is which channel.
+    /// Assignment of signals to channels.
     pub map: &'a [MapArgument],
     /// Position of the occupant in ISO-MME codes.
     pub seat: char,
-    /// Which times.
+    /// Time window.
     pub window: Window,
     /// Filter and interval.
     pub treatment: Treatment,
-    /// The filter in words.
+    /// Description of the filter.
     pub filter: String,
 }
 
@@ -47,14 +47,14 @@ pub struct Comparison {
     filter: String,
     shift_s: f64,
     pairs: Vec<RatedPair>,
-    /// What a reader should know.
+    /// Notes for the reader.
     pub notes: Vec<String>,
-    /// Why the results of a run that is compared mean nothing, by run.
+    /// Reasons why results are invalid, by run.
     #[serde(skip)]
     pub worthless: Vec<String>,
 }
 
-/// What a comparison is summed up by: name, key of the metric and of its score.
+/// Metrics of the overview: name, key of the metric and of its score.
 const METRICS: [(&str, &str, &str); 3] = [
     ("ISO/TS 18571", "iso18571", "overall"),
     ("CORA", "cora", "overall"),
@@ -79,7 +79,7 @@ struct RatedPair {
     rating: Rating,
 }
 
-/// What was seen on the way to the ratings.
+/// Notes collected during the comparison.
 #[derive(Default)]
 struct Remarks {
     notes: Vec<String>,
@@ -87,7 +87,7 @@ struct Remarks {
 }
 
 impl Remarks {
-    /// By the one rule of what a run came to: one that failed or is out of balance has no results.
+    /// Applies the common rule to a run: one that failed or is out of balance has no valid results.
     fn judge(&mut self, run: &Results) {
         let name = run.path.display();
         if let Some(reason) = run.ending().and_then(|ending| ending.reason()) {
@@ -138,7 +138,7 @@ fn nothing_common(request: &Request<'_>) -> Failure {
 }
 
 impl Comparison {
-    /// All pairs in one line, and of several a table with a line for each.
+    /// All pairs in one line, or in a table if there are several.
     fn at_a_glance(&self) -> String {
         let scores = |pair: &RatedPair| METRICS.map(|(_, metric, score)| pair.rating.score(metric, score));
         let mean = |i: usize| {
@@ -162,7 +162,7 @@ impl Comparison {
         format!("{line}\n{}", table.text())
     }
 
-    /// The ratings in words.
+    /// The ratings as text.
     pub fn text(&self) -> String {
         let mut text = format!(
             "{} compared with {}; shift {} ms; all ratings at {} kHz\n",

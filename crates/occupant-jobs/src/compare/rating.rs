@@ -11,7 +11,7 @@ pub const RATE_HZ: f64 = 10_000.0;
 
 /// Longest time compared, s.
 const LONGEST_S: f64 = 100.0;
-/// Longest time for CORA, s, whose work grows with the square of the time; ISO/TS 18571 has the same bound.
+/// Longest time for CORA, s, whose cost grows with the square of the time; ISO/TS 18571 has the same bound.
 const LONGEST_CORA_S: f64 = 2.0;
 
 /// A history: times, s, and values, SI.
@@ -23,14 +23,14 @@ pub struct Track<'a> {
     pub values: &'a [f64],
 }
 
-/// The part of the time that counts.
+/// Time window of a comparison.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Window {
     /// First time; that of the overlap if absent.
     pub from_s: Option<f64>,
     /// Last time.
     pub to_s: Option<f64>,
-    /// Added to the measured times.
+    /// Time added to the measured times, s.
     pub shift_s: f64,
 }
 
@@ -43,25 +43,25 @@ pub struct Rating {
     to_s: f64,
     /// Samples compared.
     samples: usize,
-    /// At this rate, 1/s, by straight lines between samples.
+    /// Sample rate, 1/s, by linear interpolation.
     rate_hz: f64,
-    /// The scores of each metric under its key, null where it cannot be computed.
+    /// Scores of each metric by its key, null where it cannot be computed.
     #[serde(flatten)]
     scores: Map<String, Value>,
-    /// Why a rating is missing.
+    /// Reasons for missing ratings.
     problems: Vec<String>,
-    /// Name and scores of each metric in words.
+    /// Name of each metric and its scores as text.
     #[serde(skip)]
     words: Vec<(&'static str, String)>,
 }
 
 impl Rating {
-    /// The whole score of a metric by its key; none if it is not rated.
+    /// A score of a metric by its key; none if it was not rated.
     pub fn score(&self, metric: &str, score: &str) -> Option<f64> {
         self.scores.get(metric)?.get(score)?.as_f64()
     }
 
-    /// A name and its words, line by line; `filter` is what was done to both sides.
+    /// Text lines of a name and its scores; `filter` describes the filter of both sides.
     pub fn lines(&self, filter: &str) -> Vec<(&'static str, String)> {
         let span = format!("{:.1} to {:.1} ms", self.from_s * 1e3, self.to_s * 1e3);
         let mut lines = vec![("compared", format!("{span}, {} samples, filter {filter}", self.samples))];
@@ -79,7 +79,7 @@ struct Sampled {
     to_s: f64,
 }
 
-/// What a metric gives: for programs, and in words.
+/// Scores of a metric: as JSON and as text.
 type Scores = Result<(Value, String), String>;
 
 /// A metric: its key in JSON, its name, its scores.
@@ -95,7 +95,7 @@ const METRICS: [Metric; 4] = [
 /// Time between samples, s.
 const DT_S: f64 = 1.0 / RATE_HZ;
 
-/// Rates a computed against a measured history, both filtered already.
+/// Rates a computed history against a measured one, both already filtered.
 ///
 /// # Errors
 /// No common time, values that are missing in it.
@@ -134,7 +134,7 @@ pub fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> Result<
     Ok(Rating { from_s, to_s, samples, rate_hz: RATE_HZ, scores, problems, words })
 }
 
-/// Scores from 0 to 1, and by how much the computed history is late.
+/// Scores from 0 to 1, and the lag of the computed history.
 fn rate_iso18571(pair: &Sampled) -> Scores {
     let r = iso18571(&pair.measured, &pair.computed, DT_S).map_err(|e| e.to_string())?;
     let grade = match r.grade() {
@@ -214,7 +214,7 @@ fn signed_percent(part: f64) -> String {
     format!("{:+.1} %", 100.0 * part)
 }
 
-/// First and last time that both have and the window lets.
+/// First and last time common to both histories and the window.
 ///
 /// # Errors
 /// There is none.
@@ -241,7 +241,7 @@ pub fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], S
     }
 }
 
-/// Values on the common grid: so many at [`RATE_HZ`] from `from_s` on, by straight lines.
+/// Values on the common grid: at [`RATE_HZ`] from `from_s`, interpolated linearly.
 ///
 /// # Errors
 /// A value that is missing there.

@@ -11,37 +11,37 @@ use vehicle_motion::world::Partner;
 use crate::base::Units;
 use crate::base::text_table::{Align, NONE, Table};
 
-/// A barrier as a vehicle met it, SI. Angles are those of the velocity to the line of a wall or rail.
+/// A vehicle's contact with a barrier, SI. Angles are between the velocity and the line of a wall or rail.
 #[derive(Clone, Debug, Serialize)]
 pub struct Met {
     /// Its name.
     pub name: String,
-    /// What kind it is.
+    /// Its kind.
     pub kind: &'static str,
-    /// First touch and last force, s.
+    /// Time of the first contact, s.
     pub from_s: f64,
-    /// Its end, s.
+    /// Time of the last force, s.
     pub until_s: f64,
     /// Speed at the impact, m/s.
     pub impact_speed_m_s: f64,
-    /// Towards it, rad.
+    /// Angle towards it, rad.
     pub impact_angle_rad: Option<f64>,
-    /// 2 m beyond the last contact, or at the end of the drive if it does not come so far.
+    /// Speed 2 m after the last contact, or at the end of the drive, m/s.
     pub exit_speed_m_s: f64,
-    /// Away from it, rad.
+    /// Angle away from it, rad.
     pub exit_angle_rad: Option<f64>,
-    /// Largest way of a rail, or of a cushion or sign, m.
+    /// Largest deflection of a rail, cushion or sign, m.
     pub deflection_m: Option<f64>,
-    /// Largest tension of a rail, N, and posts that let it go.
+    /// Largest tension of a rail, N.
     pub tension_n: Option<f64>,
-    /// How many posts have given way.
+    /// Number of released posts.
     pub released_posts: Option<usize>,
 }
 
-/// Exit speed and angle are told so far beyond the last contact, m.
+/// Distance after the last contact at which exit speed and angle are taken, m.
 const BEYOND_M: f64 = 2.0;
 
-/// What a vehicle met, in the order of the scenario.
+/// Barrier contacts of a vehicle, in the order of the scenario.
 pub(super) fn of(drives: &Drives, car: usize) -> Vec<Met> {
     (0..drives.barriers.len()).filter_map(|barrier| met(drives, car, barrier)).collect()
 }
@@ -79,13 +79,13 @@ fn met(drives: &Drives, car: usize, barrier: usize) -> Option<Met> {
     })
 }
 
-/// The station 2 m beyond the first, or the last.
+/// The station 2 m after the first, or the last.
 fn exit(stations: &[Station]) -> &Station {
     let far = |station: &&Station| (station.position_m - stations[0].position_m).norm() >= BEYOND_M;
     stations.iter().find(far).unwrap_or(&stations[stations.len() - 1])
 }
 
-/// Direction away from the face of a wall or rail; none of what has no line.
+/// Direction away from the face of a wall or rail; none for point barriers.
 fn away(barrier: &Barrier) -> Option<V3> {
     match barrier {
         Barrier::Wall(wall) => Some(V3::new(wall.normal_rad.cos(), wall.normal_rad.sin(), 0.0)),

@@ -10,34 +10,34 @@ use vehicle_motion::world::{Contact, Damage, Partner, Struck};
 use crate::base::Units;
 use crate::base::text_table::{Align, NONE, Table};
 
-/// A collision as one of the vehicles has it, SI.
+/// A collision, from one vehicle's point of view, SI.
 #[derive(Clone, Debug, Serialize)]
 pub struct Collision {
     /// Name of the partner.
     pub with: String,
-    /// First touch and last force, s.
+    /// Time of the first contact, s.
     pub from_s: f64,
-    /// Its end, s.
+    /// Time of the last force, s.
     pub until_s: f64,
-    /// Speed of the centres of gravity against each other at first contact, m/s.
+    /// Closing speed of the centres of gravity at first contact, m/s.
     pub closing_m_s: f64,
-    /// Largest change of velocity, and that change along the vehicle's axes at first contact, m/s.
+    /// Largest velocity change, m/s.
     pub delta_v_m_s: f64,
     /// Change of velocity along x, y, z of the vehicle, m/s.
     pub delta_v_axes_m_s: [f64; 3],
-    /// Change of velocity by the impulse of the contact alone, without the tyres' share: what models of impact call Δv, m/s.
+    /// Velocity change by the contact impulse alone, without the tyres: the delta-v of impact models, m/s.
     pub delta_v_contact_m_s: f64,
-    /// Where the impulse comes from, clockwise from ahead, -π to π, rad, and as the hour of a clock.
+    /// Principal direction of force, clockwise from the front, −π to π, rad.
     pub pdof_rad: f64,
-    /// Direction of the force by the clock, 12 from ahead.
+    /// Clock direction of the force, 12 from the front.
     pub clock: u8,
-    /// Speed of a barrier that absorbs as much as the vehicle did in it, m/s.
+    /// Energy-equivalent speed, m/s.
     pub ees_m_s: f64,
     /// Largest acceleration, m/s².
     pub peak_m_s2: f64,
 }
 
-/// A touch that changes the speed by less, by itself or with the tyres, is none, m/s: cars that lean on each other.
+/// Least velocity change of a collision, by itself or with the tyres, m/s; cars that lean on each other stay below.
 const LEAST_M_S: f64 = 0.5;
 
 /// Collisions of a vehicle in the order of first contacts.
@@ -76,7 +76,7 @@ fn one(drives: &Drives, contact: &Contact, number: usize) -> Option<Collision> {
     })
 }
 
-/// What a contact did to a vehicle, and who its partner is; none if it has no part in it.
+/// One vehicle's side of a contact, and its partner; none if it is not involved.
 fn side_of(contact: &Contact, number: usize) -> Option<(Struck, Partner)> {
     let [first, second] = contact.struck;
     match contact.partner {
@@ -113,7 +113,8 @@ pub(super) fn text(collisions: &[Collision], units: Units) -> String {
     table.text()
 }
 
-/// Damage of a vehicle as a table: largest and residual crush, then residual depths C1 to C6 at equal distances over each damaged side.
+/// Damage of a vehicle as a table: largest and residual crush, then residual depths C1 to C6 at equal distances over
+/// each damaged side.
 pub(super) fn damage_text(damage: &Damage, units: Units) -> String {
     let m = |value: f64| units.say(value, "m", 3);
     let mut table = Table::new(&[
@@ -130,7 +131,7 @@ pub(super) fn damage_text(damage: &Damage, units: Units) -> String {
     table.text()
 }
 
-/// The crush of a vehicle in words.
+/// Crush of a vehicle, as text.
 pub(super) fn crush_words(damage: &Damage, units: Units) -> String {
     let m = |value: f64| units.say(value, "m", 3);
     let roof = if damage.roof_m > 0.0 { format!(", the roof by {}", m(damage.roof_m)) } else { String::new() };

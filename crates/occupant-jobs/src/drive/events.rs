@@ -9,17 +9,17 @@ use vehicle_motion::run::{Ride, Station};
 use super::collisions::Collision;
 use super::{WHEELS, slips_rad};
 
-/// Something that happened.
+/// An event.
 #[derive(Clone, Debug, Serialize)]
 pub struct Event {
-    /// When, s: the first station at which it is so, at most 10 ms late.
+    /// Time of the first station after it, s; at most 10 ms late.
     pub time_s: f64,
-    /// In words.
+    /// Description.
     pub what: String,
 }
 
 const SPINS: &str = "spins out: it slides sideways, slip angle 90 deg";
-/// A wheel is in the air when it bears nothing for so long, s.
+/// Time without load after which a wheel counts as airborne, s.
 const AIR_S: f64 = 0.03;
 
 /// Events of a ride in the order of time.
@@ -51,7 +51,7 @@ pub(super) fn of(ride: &Ride, ground: &Ground, collisions: &[Collision]) -> Vec<
     events
 }
 
-/// A wheel comes from one zone into another.
+/// Transitions of a wheel between zones.
 fn zones(stations: &[Station], ground: &Ground, wheel: usize, name: &str, events: &mut Vec<Event>) {
     let zone = |station: &Station| ground.zone(station.wheels[wheel].contact_m.y).map(|zone| zone.name.as_str());
     for pair in stations.windows(2) {

@@ -24,40 +24,40 @@ pub use plan::plan;
 pub use table::{columns, path_columns, write};
 pub use text::{json, text};
 
-/// Below this speed a vehicle is at rest, m/s.
+/// Speed below which a vehicle is at rest, m/s.
 const REST_M_S: f64 = 0.05;
 
-/// A vehicle's drive and what there is to say of it.
+/// A vehicle's drive with its evaluation.
 pub struct Driven {
     /// The vehicle's number.
     pub number: usize,
-    /// What happened, in order of time.
+    /// Events in order of time.
     pub events: Vec<Event>,
-    /// Marks of tyres.
+    /// Tyre marks.
     pub marks: Vec<Mark>,
-    /// The motion, as channels.
+    /// Extremes of the motion.
     pub motion: Figurable,
-    /// What it met, in the order of first contacts.
+    /// Collisions in the order of first contacts.
     pub collisions: Vec<Collision>,
-    /// Barriers that it met.
+    /// Barrier contacts.
     pub barriers: Vec<Met>,
-    /// Measures of the risk to occupants.
+    /// Risk measures for occupants.
     pub risk: Vec<Figure>,
 }
 
 /// Extremes of a drive, SI.
 pub struct Figurable {
-    /// When it came to rest, s; none while it moves.
+    /// Time of coming to rest, s; none if still moving.
     pub rest_s: Option<f64>,
-    /// Way of the centre of gravity, m.
+    /// Path length of the centre of gravity, m.
     pub distance_m: f64,
-    /// Yaw of the whole drive, turns counted, rad.
+    /// Yaw angle of the whole drive, including full turns, rad.
     pub turned_rad: f64,
-    /// Largest roll, pitch and slip angle with their times, rad and s.
+    /// Largest roll, rad, and its time, s.
     pub roll: (f64, f64),
-    /// Largest pitch, rad, and when, s.
+    /// Largest pitch, rad, and its time, s.
     pub pitch: (f64, f64),
-    /// Largest slip angle, rad, and when, s.
+    /// Largest slip angle, rad, and its time, s.
     pub slip: (f64, f64),
     /// Steepest ground under the centre of gravity, rise over run.
     pub slope: (f64, f64),
@@ -80,7 +80,7 @@ impl Driven {
     }
 }
 
-/// Measures of the risk to occupants by the motion of the compartment's origin, from a time on.
+/// Risk measures from the motion of the compartment's origin, from a time on.
 fn risk(drives: &Drives, number: usize, from_s: f64) -> Vec<Figure> {
     let ride = &drives.outcome.rides[number];
     let end_s = ride.last().time_s;
@@ -124,7 +124,7 @@ fn turned(stations: &[Station]) -> f64 {
     stations.windows(2).map(step).sum()
 }
 
-/// Names of wheels in channels, and in words.
+/// Names of the wheels in channels and in text.
 pub const WHEELS: [[&str; 2]; 4] = [
     ["left_front", "left front wheel"],
     ["right_front", "right front wheel"],

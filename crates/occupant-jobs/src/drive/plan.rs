@@ -9,24 +9,24 @@ use vehicle_motion::world::Profile;
 use super::Driven;
 use occupant_pictures::svg::{Anchor, Svg, Text};
 
-/// Largest size of the plan without its words, user units, and largest scale, user units to a metre.
+/// Largest size of the plan without text, user units, and largest scale, user units per metre.
 const SIZE: [f64; 2] = [1400.0, 700.0];
 const LARGEST: f64 = 60.0;
 const SIDE: f64 = 24.0;
 const HEAD: f64 = 64.0;
 const FOOT: f64 = 58.0;
-/// Room round what is shown, and a wall beyond it, m.
+/// Margin around the drawing, and length of a wall shown beyond it, m.
 const MARGIN_M: f64 = 3.0;
-/// Vehicles are drawn at so many equal times besides first contacts and the end.
+/// Number of equally spaced times at which vehicles are drawn, besides first contacts and the end.
 const TIMES: usize = 8;
 /// Distance of the points of a crushed outline, m.
 const PART_M: f64 = 0.05;
 /// Zones of friction are looked for along so many lines.
 const LINES: usize = 1000;
-/// Colours of the vehicles, in their order, again from the first.
+/// Colours of the vehicles in order, repeated.
 const COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6d1f"];
 
-/// The part of the ground that is shown, m, and its scale.
+/// The part of the ground shown, m, and its scale.
 struct Sheet {
     low: [f64; 2],
     high: [f64; 2],
@@ -119,7 +119,7 @@ fn corners(own: &occupant_scenario::DrivenVehicle) -> [[f64; 2]; 8] {
     ]
 }
 
-/// A point of the vehicle in plan.
+/// A point of the vehicle in plan view.
 fn place(station: &Station, x: f64, y: f64) -> [f64; 2] {
     let at = station.position_m + station.attitude * vehicle_motion::V3::new(x, y, 0.0);
     [at.x, at.y]
@@ -188,7 +188,7 @@ fn marks(svg: &mut Svg, sheet: &Sheet, all: &[Driven]) {
     }
 }
 
-/// A barrier; a rail as it was and as it is at the end.
+/// A barrier; a rail in its initial and final shape.
 fn barrier(svg: &mut Svg, sheet: &Sheet, drives: &Drives, number: usize) {
     let solid = "fill=\"#8d8d8d\" stroke=\"#333333\" stroke-width=\"1.5\"";
     match &drives.world.barriers[number] {
@@ -223,7 +223,7 @@ fn barrier(svg: &mut Svg, sheet: &Sheet, drives: &Drives, number: usize) {
     }
 }
 
-/// The way of a vehicle's centre of gravity, and its outline at times, the later the darker.
+/// Path of a vehicle's centre of gravity, and its outline at several times, later ones darker.
 fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven, labels: &mut Vec<([f64; 2], f64)>) {
     let (own, ride) = (&drives.vehicles[driven.number], &drives.outcome.rides[driven.number]);
     let colour = COLOURS[driven.number % COLOURS.len()];
@@ -260,7 +260,7 @@ fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven, label
     }
 }
 
-/// The times beside the outlines, the latest first; one that would cover another is left out.
+/// Times beside the outlines, the latest first; overlapping ones are left out.
 fn tell_times(svg: &mut Svg, mut labels: Vec<([f64; 2], f64)>) {
     labels.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut told: Vec<[f64; 2]> = Vec::new();

@@ -12,11 +12,11 @@ use super::{WHEELS, slip_rad};
 use crate::base::{Existing, Failure};
 use occupant_files::table::{Cell, Form, Kind, TableFile};
 
-/// What a line of the table is made of.
+/// Data of a row.
 pub struct Moment<'a> {
     motion: Motion,
     attitude: Attitude,
-    /// The station before, and how far the next is.
+    /// The stations before and after.
     stations: [&'a Station; 2],
     share: f64,
     time_s: f64,
@@ -33,19 +33,19 @@ fn column(heading: &str, value: impl Fn(&Moment<'_>) -> f64 + 'static) -> Column
 }
 
 impl Moment<'_> {
-    /// A number of the stations, on a straight line between them.
+    /// A value interpolated linearly between the stations.
     fn between(&self, of: impl Fn(&Station) -> f64) -> f64 {
         let [from, to] = self.stations.map(of);
         from + (to - from) * self.share
     }
 
-    /// A vector of vehicle-space along the vehicle's axes.
+    /// A vehicle-space vector in vehicle axes.
     fn along(&self, of: Vector3<f64>) -> Vector3<f64> {
         self.motion.rotation.tr_mul(&of)
     }
 }
 
-/// Place and angles.
+/// Position and angles.
 pub fn path_columns() -> Vec<Column> {
     vec![
         column("t[s]", |m| m.time_s),
@@ -58,7 +58,7 @@ pub fn path_columns() -> Vec<Column> {
     ]
 }
 
-/// Everything.
+/// All columns.
 pub fn columns() -> Vec<Column> {
     let mut all = path_columns();
     all.push(column("speed[m/s]", |m| m.motion.velocity_m_s.norm()));
@@ -87,7 +87,8 @@ pub fn columns() -> Vec<Column> {
     all
 }
 
-/// Writes a vehicle's motion; places, accelerations and rates are those of the compartment's origin, without gravity.
+/// Writes a vehicle's motion; positions, accelerations and rates are those of the compartment's origin, without
+/// gravity.
 ///
 /// # Errors
 /// What the writer reports.

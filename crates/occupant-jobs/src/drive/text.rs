@@ -42,14 +42,17 @@ fn one(drives: &Drives, driven: &Driven, units: Units) -> String {
             ),
         ),
         ("end", format!("{:.2} s: {end}, {}, yaw {:.1} deg", last.time_s, place(last.position_m), yaw(&last.state))),
-        ("way", format!("{}, turned by {:.1} deg", say(motion.distance_m, "m", 2), motion.turned_rad.to_degrees())),
+        (
+            "distance",
+            format!("{}, turned by {:.1} deg", say(motion.distance_m, "m", 2), motion.turned_rad.to_degrees()),
+        ),
         ("largest roll", angle(motion.roll)),
         ("largest pitch", angle(motion.pitch)),
         ("largest slip angle", angle(motion.slip)),
         ("steepest ground", format!("{:.0} % at {:.2} s", 100.0 * motion.slope.0, motion.slope.1)),
         ("crush", collisions::crush_words(damage, units)),
         ("energy balance", format!("off by {:.1e} of the largest kinetic energy", ride.balance().abs())),
-        ("steps", format!("{} of {} evaluations", ride.stations().len() - 1, ride.evaluations)),
+        ("steps", format!("{}, {} evaluations", ride.stations().len() - 1, ride.evaluations)),
     ];
     let is_hit = !driven.collisions.is_empty() || damage.roof_m > 0.0;
     head.retain(|(name, words)| {
@@ -103,7 +106,7 @@ fn marks(driven: &Driven, units: Units) -> String {
     table.text()
 }
 
-/// Measures of risk; time counts from the start of the drive.
+/// Risk measures; times are relative to the start of the drive.
 fn risk(driven: &Driven, units: Units) -> String {
     let us = units.symbol("m") != "m";
     let mut table = Table::new(&[
@@ -124,7 +127,7 @@ fn risk(driven: &Driven, units: Units) -> String {
     table.text()
 }
 
-/// How far the numbers can be trusted.
+/// How well the values are known.
 fn evidence(drives: &Drives, driven: &Driven) -> String {
     let own = &drives.vehicles[driven.number];
     let mut table = Table::new(&[(Align::Left, &["number", "trust", "source"])]);
@@ -134,7 +137,7 @@ fn evidence(drives: &Drives, driven: &Driven) -> String {
     table.text()
 }
 
-/// Preset, what all presets share, barriers.
+/// Evidence of the preset, of values common to all presets, and of barriers.
 fn evidence_of(own: &DrivenVehicle, driven: &Driven) -> Vec<(&'static str, Evidence, &'static str)> {
     let collides = !driven.collisions.is_empty();
     let is_dynamic = collides && matches!(own.car.body.crush.reading, Reading::Dynamic { .. });
@@ -167,7 +170,7 @@ fn profile(own: &vehicle_motion::world::Profile) -> Value {
 
 const RISK_OF_COLLISION: &str = "occupant risk from the vehicle's motion, from its first collision on";
 
-/// What all presets share.
+/// Values common to all presets.
 const COMMON: [(&str, Evidence, &str); 3] = [
     ("tyres", Evidence::Typical, "between published tyres; relaxation and camber are plausible, not measured"),
     ("friction of the ground", Evidence::Typical, "0.76 on dry asphalt (0.64 to 0.88 in 95 % of tests) unless given"),

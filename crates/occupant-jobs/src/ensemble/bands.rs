@@ -12,9 +12,9 @@ use crate::base::Failure;
 use crate::files::history;
 use occupant_files::table::{Cell, Kind, columns};
 
-/// Memory that histories and bands may take: with all else below one GB.
+/// Largest memory for histories and bands: with everything else below 1 GB.
 const MOST_BYTES: usize = 1 << 29;
-/// Curves of a band.
+/// Number of curves per band.
 const CURVES: usize = 6;
 
 /// The bands of an ensemble; in JSON without their values.
@@ -40,17 +40,17 @@ pub struct ChannelBand {
     /// The quantiles at each output.
     #[serde(skip)]
     pub band: Band,
-    /// Width of the middle 90 % at which the members count as parted, in the unit.
+    /// Width of the middle 90 % at which the members count as diverged, in the unit.
     pub tolerance: f64,
-    /// When they part, s; none if they never do.
+    /// Time of divergence, s; none if they never diverge.
     pub lost_at_s: Option<f64>,
-    /// Largest width of the middle 90 %, in the unit, and when it is reached, s.
+    /// Largest width of the middle 90 %, in the unit.
     pub widest: Option<f64>,
-    /// When it is widest, s.
+    /// Time of the largest width, s.
     pub widest_at_s: Option<f64>,
 }
 
-/// The channels that names and patterns ask for, in the order asked; the main ones for none.
+/// Channels selected by names and patterns, in the given order; the main ones if there are none.
 ///
 /// # Errors
 /// A name or pattern that fits no channel.
@@ -83,8 +83,8 @@ pub fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<
 }
 
 impl Bands {
-    /// The bands of these channels; the histories of the unchanged run come first. `relative` is the width at which members
-    /// count as parted, as a part of the range that a channel runs through.
+    /// Bands of these channels; the histories of the unchanged run come first. `relative` is the width at which members
+    /// count as diverged, relative to a channel's range.
     pub fn of(channels: &[Channel], time_s: Vec<f64>, runs: &[&[Vec<f64>]], relative: f64) -> Bands {
         let band = |(i, channel): (usize, &Channel)| {
             let members: Vec<&[f64]> = runs.iter().filter_map(|r| r.get(i)).map(Vec::as_slice).collect();
@@ -112,7 +112,7 @@ impl Bands {
         columns(&[(Kind::Text, &["channel", "unit"]), (Kind::MaybeNumber, &values)])
     }
 
-    /// The rows of that table: one for each channel and time, and of which channel it is.
+    /// Rows of that table, one per channel and time, with the channel.
     pub fn rows(&self) -> impl Iterator<Item = (&ChannelBand, Vec<Cell>)> {
         let times = 0..self.time_s.len();
         self.channels.iter().flat_map(move |band| times.clone().map(move |i| (band, band.cells(&self.time_s, i))))
@@ -138,7 +138,7 @@ fn widest(band: &Band, time_s: &[f64]) -> Option<(f64, f64)> {
     timed.reduce(|a, b| if b.0 > a.0 { b } else { a })
 }
 
-/// Twice the width at the start, of places and angles: that is what the changes have put in, and no growth.
+/// Twice the initial width of positions and angles: the perturbation itself, not its growth.
 fn put_in(band: &Band, unit: &str) -> f64 {
     match (unit, band.q95.first(), band.q05.first()) {
         ("m" | "rad", Some(high), Some(low)) => 2.0 * (high - low),
@@ -146,7 +146,7 @@ fn put_in(band: &Band, unit: &str) -> f64 {
     }
 }
 
-/// Largest less least: a place has no zero to measure its size from.
+/// Largest minus least value: a position has no natural zero.
 fn range(values: &[f64]) -> f64 {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let range = finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min);

@@ -14,32 +14,32 @@ use crate::files::scenario::Opened;
 use occupant_files::table::{Form, TableFile};
 use occupant_pictures::Format;
 
-/// Pixels of a PNG for each unit of the drawing (1/96 inch).
+/// Pixels of a PNG per drawing unit (1/96 inch).
 const PIXELS: f64 = 2.0;
 
-/// An ensemble that has been asked for.
+/// A requested ensemble.
 pub struct Wanted {
     /// The study.
     pub study: Study,
-    /// Names the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// By how much starts differ.
+    /// Tolerances of the perturbations.
     pub changes: Tolerances,
-    /// Width of the middle 90 % that a stable figure may have, as a part of the median.
+    /// Largest width of the middle 90 % of a stable figure, relative to the median.
     pub within: f64,
-    /// What runs them.
+    /// The engine that runs them.
     pub engine: Engine,
-    /// Whose histories are kept.
+    /// Channels whose histories are kept.
     pub channels: Vec<Channel>,
     /// The files.
     pub files: Vec<(PathBuf, BandFile)>,
     /// Whether files are replaced.
     pub existing: Existing,
-    /// Of pictures.
+    /// Units of pictures.
     pub units: Units,
 }
 
-/// What a file of bands holds.
+/// Content of a band file.
 #[derive(Clone, Copy)]
 pub enum BandFile {
     /// A table.
@@ -49,7 +49,7 @@ pub enum BandFile {
 }
 
 impl Wanted {
-    /// Runs the members and judges them; `histories` and `summary` are those of the unchanged run.
+    /// Runs and assesses the members; `histories` and `summary` are those of the unchanged run.
     ///
     /// # Errors
     /// Interrupted; a file that cannot be written.

@@ -3,7 +3,7 @@
 use occupant_study::spread::{Rule, Spread, Verdict};
 use serde::Serialize;
 
-/// A figure and how its ensemble spreads, as tables and JSON have it; SI units.
+/// A figure with its spread over an ensemble, for tables and JSON; SI units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judged {
     /// Its name.
@@ -12,18 +12,18 @@ pub struct Judged {
     pub unit: String,
     /// Its value in the unchanged run.
     pub nominal: Option<f64>,
-    /// How its values are spread.
+    /// Spread of its values.
     #[serde(flatten)]
     pub spread: Spread,
-    /// Width of the middle 90 % up to which it is stable, in its unit.
+    /// Largest width of the middle 90 % for which it is stable, in its unit.
     pub tolerance: f64,
     /// Whether it may be quoted as one number.
     pub verdict: Verdict,
 }
 
 impl Judged {
-    /// Judges a figure: a value for each member, the unchanged run first, NaN where a member has none; `relative` is the
-    /// width that the middle 90 % may have, as a part of the median. None if no member has one.
+    /// Assesses a figure from one value per member, the unchanged run first, NaN where missing; `relative` is the
+    /// allowed width of the middle 90 % relative to the median. None if no member has a value.
     pub fn of(name: &str, unit: &str, values: &[f64], relative: f64) -> Option<Judged> {
         let spread = Spread::of(values)?;
         // a time is judged by its plain difference alone: where a clock begins says nothing
@@ -40,8 +40,8 @@ impl Judged {
     }
 }
 
-/// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
-/// are too small for anybody to act on: when nothing was largest says nothing.
+/// Assesses figures (name, unit, one value per member). Figures without values are left out, and times of peaks too
+/// small to matter.
 pub fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, &'a [f64])>, relative: f64) -> Vec<Judged> {
     let mut judged: Vec<Judged> =
         figures.filter_map(|(name, unit, values)| Judged::of(name, unit, values, relative)).collect();
@@ -52,12 +52,12 @@ pub fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, &'a [f64])>, r
     judged
 }
 
-/// Whether a figure is one of the run's result, and not of the work that it took or of how well it was computed.
+/// Whether a figure is a physical result, not a measure of cost or numerical accuracy.
 pub fn is_result(name: &str) -> bool {
     !(name.starts_with("solver.") || name.starts_with("run.") || name == "energy.balance_error")
 }
 
-/// The smallest difference that anybody would act on, in the unit: below it a figure is stable however small it is.
+/// Smallest relevant difference, in the unit: below it a figure is stable however small it is.
 pub fn smallest(name: &str, unit: &str) -> f64 {
     let index = ["hic", "gsi", "csi"];
     match unit {

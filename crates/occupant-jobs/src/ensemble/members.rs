@@ -15,7 +15,7 @@ use super::judge::is_result;
 use crate::base::progress::Bar;
 use crate::base::{Failure, Interrupt};
 
-/// What a run of the ensemble left, or why its figures are none.
+/// Results of a member, or the reason why there are none.
 pub type Member = Result<Left, String>;
 
 /// Figures and histories of a run.
@@ -23,7 +23,7 @@ pub type Member = Result<Left, String>;
 pub struct Left {
     /// The figures.
     pub figures: Vec<Figure>,
-    /// By channel: a value for each output.
+    /// By channel: one value per output.
     pub values: Vec<Vec<f64>>,
     /// Times of the outputs, s.
     pub time_s: Vec<f64>,
@@ -35,7 +35,7 @@ impl Left {
         self.figures.get(figure).and_then(|f| f.value).unwrap_or(f64::NAN)
     }
 
-    /// What the summary of a run and the histories say.
+    /// Results of a run from its summary and histories.
     pub fn of(summary: &Summary, model: &Model, histories: Series) -> Left {
         let mut figures = summary.figures(model);
         figures.retain(|f| is_result(&f.name));
@@ -43,24 +43,24 @@ impl Left {
     }
 }
 
-/// What all members share.
+/// Data shared by all members.
 pub struct Members<'a> {
     /// The ensemble.
     pub study: &'a Study,
-    /// Numbers of the runs.
+    /// Indices of the runs.
     pub runs: Range<u64>,
-    /// The files that the scenario names.
+    /// Reads files referred to by the scenario.
     pub resolver: &'a (dyn Fn(&str) -> Result<Vec<u8>, String> + Sync),
-    /// Whose histories are kept.
+    /// Channels whose histories are kept.
     pub channels: &'a [Channel],
-    /// What stops them.
+    /// Request to stop.
     pub interrupt: &'a Interrupt,
-    /// Shows how far they are.
+    /// Progress display.
     pub bar: Option<&'a dyn Bar>,
 }
 
 impl Members<'_> {
-    /// Runs the members and gives them in order.
+    /// Runs the members and returns them in order.
     ///
     /// # Errors
     /// Interrupted.

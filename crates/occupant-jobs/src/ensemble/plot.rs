@@ -8,11 +8,11 @@ use crate::base::Units;
 use occupant_pictures::plot::{Axis, Curve, Figure, Sheet, Style, sheet};
 
 const BLUE: &str = "#0072b2";
-/// Of the middle 90 %, and of the middle half.
+/// Colours of the middle 90 % and the middle half.
 const AREAS: [&str; 2] = ["#a6cbe3", "#5b9fcb"];
 const RED: &str = "#c00000";
 
-/// The drawing as SVG; `title` and `words` stand above the figures.
+/// The drawing as SVG, with `title` and `words` above the figures.
 pub fn svg(bands: &Bands, title: &str, words: &str, units: Units) -> String {
     let figures: Vec<Figure> = bands.channels.iter().map(|band| figure(band, &bands.time_s, units)).collect();
     sheet(&Sheet { title: title.to_owned(), lines: vec![words.to_owned()], columns: 2 }, &figures)

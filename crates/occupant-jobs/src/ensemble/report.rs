@@ -7,41 +7,41 @@ use serde::Serialize;
 use super::judge::judge;
 use super::{Bands, Judged, Left, Member};
 
-/// An ensemble that has been run; SI units.
+/// Results of an ensemble; SI units.
 #[derive(Serialize)]
 pub struct Report {
-    /// Runs, the unchanged one included.
+    /// Number of runs, including the unchanged one.
     pub members: u64,
     /// Runs that completed.
     pub completed: u64,
-    /// What named the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// How far the changes went.
+    /// Tolerances of the perturbations.
     pub changes: Tolerances,
-    /// Width of the middle 90 % that a stable figure may have, as a part of the median.
+    /// Largest width of the middle 90 % of a stable figure, relative to the median.
     pub within: f64,
-    /// Runs that did not.
+    /// Runs that did not complete.
     pub failed: Vec<Failed>,
-    /// All figures that some member has.
+    /// All figures that any member has.
     pub figures: Vec<Judged>,
-    /// Bands of the channels looked at.
+    /// Bands of the selected channels.
     #[serde(flatten)]
     pub bands: Bands,
     /// Files of bands and plots.
     pub files: Vec<String>,
 }
 
-/// A member that did not complete, and why.
+/// A member that did not complete, with the reason.
 #[derive(Serialize)]
 pub struct Failed {
     /// Number of the member.
     pub member: u64,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
 impl Report {
-    /// Judges what the members left.
+    /// Assesses the results of the members.
     pub fn of(
         nominal: &Left,
         others: &[Member],

@@ -8,7 +8,7 @@ use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, trimmed};
 
-/// Figures that the table shows whether they are stable or not, besides belts.
+/// Figures always shown in the table, besides belts.
 const ALWAYS: [&str; 17] = [
     "head.peak",
     "head.three_ms_contiguous",
@@ -28,14 +28,14 @@ const ALWAYS: [&str; 17] = [
     "right_femur",
     "left_femur",
 ];
-/// So many failed members are named.
+/// Number of failed members named.
 const NAMED: usize = 3;
-/// So many figures are named that the table does not show.
+/// Number of figures named that are not in the table.
 const LISTED: usize = 12;
-/// Fewer members have no verdict.
+/// Least number of members for a verdict.
 const ENOUGH: u64 = 10;
 
-/// Everything about an ensemble that a person at a terminal wants to know.
+/// Report of an ensemble for the terminal.
 pub fn text(report: &Report, units: Units) -> String {
     let mut parts = vec![what(report, units), figure_table(&report.figures, units)];
     if !report.bands.channels.is_empty() {
@@ -84,7 +84,7 @@ fn percent(part: f64) -> String {
     trimmed(100.0 * part, 3)
 }
 
-/// The figures that are shown, as a table.
+/// Table of the shown figures.
 pub fn figure_table(figures: &[Judged], units: Units) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
@@ -104,7 +104,7 @@ pub fn figure_table(figures: &[Judged], units: Units) -> String {
     table.text()
 }
 
-/// Two values of a figure as the tables show them, and their unit.
+/// Two values of a figure in display units, and the unit.
 pub fn ranged(values: [f64; 2], unit: &str, units: Units) -> ([String; 2], String) {
     let (per, unit) = units.told(unit).shown;
     let greatest = values.iter().fold(0.0_f64, |m, x| m.max((x / per).abs()));
@@ -158,7 +158,7 @@ fn conclusion(report: &Report) -> String {
     format!("NOT STABLE: {} of {all} results{besides}\n", unstable.len())
 }
 
-/// Whether the tables show a figure, of the only occupant or of one of several.
+/// Whether the tables show a figure, of a single occupant or of one of several.
 pub fn is_shown(name: &str) -> bool {
     let is_belt = ["belts.", "straps."].iter().any(|kind| name.starts_with(kind));
     let of_one = name.split_once('.').filter(|(kind, _)| *kind != "contacts").map_or(name, |(_, figure)| figure);

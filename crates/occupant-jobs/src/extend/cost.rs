@@ -8,23 +8,23 @@ use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::run::simulate::{attempt, resume};
 use occupant_scenario::{Draft, Format};
 
-/// Files that a scenario names.
+/// Reads files referred to by a scenario.
 type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
-/// Where the head is in the vehicle.
+/// Position of the head in the vehicle.
 const HEAD: [&str; 3] = ["sphere.head.position.x", "sphere.head.position.y", "sphere.head.position.z"];
-/// What belts pull with.
+/// Belt forces.
 const BELTS: &str = "belt.*.force";
-/// What accelerometers read.
+/// Accelerometer readings.
 const READ: [(&str, &str); 3] = [
     ("head.acceleration.resultant", "head"),
     ("upper_torso.acceleration.resultant", "chest"),
     ("lower_torso.acceleration.resultant", "pelvis"),
 ];
-/// Times of outputs on cards and in results are as near, s.
+/// Largest difference of output times on cards and in results, s.
 const SAME_S: f64 = 1e-6;
 
-/// The model of a scenario that ends at another time.
+/// The model of a scenario with another end time.
 pub(super) fn until(mut draft: Draft, end_s: f64, resolver: Resolver<'_>) -> Result<Model, String> {
     draft.set_value("time.end", &format!("{end_s}")).map_err(|problems| problems.to_string())?;
     let loaded = draft.load(&|name| resolver(name)).map_err(|problems| problems.to_string())?;
@@ -40,7 +40,7 @@ pub(super) fn of_deck(deck: &Deck, options: &ConvertOptions, resolver: Resolver<
     histories(&model, None)
 }
 
-/// What is compared, from the start of a run or from where another ended.
+/// Histories to compare, from the start of a run or from the end of another.
 pub(super) fn histories(model: &Model, from: Option<&Checkpoint>) -> Result<Series, String> {
     let is_asked = |name: &str| HEAD.contains(&name) || star(BELTS, name).is_some() || READ.iter().any(|r| r.0 == name);
     let mut series = Series::new(channels(model).into_iter().filter(|c| is_asked(&c.name)).collect());
@@ -51,7 +51,7 @@ pub(super) fn histories(model: &Model, from: Option<&Checkpoint>) -> Result<Seri
     ended.map(|_| series)
 }
 
-/// How far an extension is from the run that continues, as text.
+/// Difference between an extension and the uninterrupted run, as text.
 pub(super) fn words(goes_on: Result<Series, String>, extension: Result<Series, String>) -> String {
     const WHY: &str = "cards do not carry the largest deformations, so the extension is approximate";
     let (goes_on, extension) = match (goes_on, extension) {
@@ -83,7 +83,7 @@ pub(super) fn words(goes_on: Result<Series, String>, extension: Result<Series, S
     )
 }
 
-/// Places of outputs at the same times.
+/// Indices of outputs at the same times.
 fn common(one_s: &[f64], other_s: &[f64]) -> Vec<[usize; 2]> {
     let at = |t_s: f64| other_s.iter().position(|other| (other - t_s).abs() < SAME_S);
     one_s.iter().enumerate().filter_map(|(i, t_s)| Some([i, at(*t_s)?])).collect()

@@ -20,7 +20,7 @@ use crate::files::scenario;
 use crate::run::FirstOutput;
 use occupant_files::mcap::StoredRun;
 
-/// Runs a deck's scenario and gives the file of the deck that continues it.
+/// Runs a deck's scenario and returns the file of the deck that continues it.
 ///
 /// # Errors
 /// A scenario that is refused, a run that does not reach its end, a time before that end or beyond the vehicle's path.
@@ -55,7 +55,7 @@ pub fn extend(
     Ok(write_file(&[next]))
 }
 
-/// The deck that continues from the last checkpoint of a results file, with remarks.
+/// The deck that continues from the last checkpoint of a result file, with remarks.
 ///
 /// # Errors
 /// A file without checkpoint or scenario, a scenario that does not fit on cards, a time before the file's end or beyond the
@@ -96,18 +96,18 @@ pub fn extend_run(
     Ok(cards)
 }
 
-/// A table that a results file holds.
+/// A table stored in a result file.
 fn table_of(stored: &StoredRun, name: &str) -> Result<Vec<u8>, String> {
     let found = stored.attachments.get(name).or_else(|| stored.attachments.get(&file_name(Path::new(name))));
     found.cloned().ok_or_else(|| format!("there is no {name}"))
 }
 
-/// The compartment given, else the built-in reconstruction.
+/// The given compartment, else the built-in reconstruction.
 fn layout_or_ours(given: Option<&CompartmentLayout>) -> Result<CompartmentLayout, Failure> {
     given.cloned().map_or_else(|| CompartmentLayout::reconstruction().map_err(Failure::plain), Ok)
 }
 
-/// Refuses a time that does not lie behind the end of the run, or for which the path has no stations.
+/// Refuses a time not after the end of the run, or without stations of the path.
 fn refuse_time(final_s: f64, end_s: f64, model: &Model) -> Result<(), Failure> {
     if let VehiclePath::Table(path) = &model.setup().path
         && final_s > path.span_s().1

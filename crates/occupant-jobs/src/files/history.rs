@@ -7,7 +7,7 @@ pub use occupant_files::history::*;
 
 use crate::base::{Failure, note};
 
-/// The channels that names and patterns ask for; patterns that fit none are told.
+/// Channels selected by names and patterns; patterns without a match are reported.
 ///
 /// # Errors
 /// A name or pattern that fits no channel.

@@ -7,20 +7,20 @@ pub use occupant_files::scenario::*;
 
 use crate::base::{Failure, say};
 
-/// Says what a deck was taken to mean, and warnings.
+/// Reports the conversion of a deck, and warnings.
 pub fn warn_of(opened: &Opened) {
     opened.deck.iter().for_each(|deck| say(&deck.words));
     warn(&opened.warnings);
 }
 
-/// Says warnings, with a blank line behind.
+/// Prints warnings followed by a blank line.
 pub fn warn(warnings: &Diagnostics) {
     if !warnings.is_empty() {
         say(&format!("{warnings}\n"));
     }
 }
 
-/// Reads the scenario and drives what it drives, without people.
+/// Reads the scenario and simulates its drive, without occupants.
 ///
 /// # Errors
 /// As [`open`]; a scenario in which nothing drives.

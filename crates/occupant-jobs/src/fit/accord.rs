@@ -5,31 +5,31 @@ use serde::Serialize;
 
 use crate::compare::RATE_HZ;
 
-/// Lags up to so many samples are tried.
+/// Largest lag tried, samples.
 const MOST_LAG: usize = 100;
-/// Measured peaks beyond this, or below its inverse, times the computed one are those of another unit or gain.
+/// Ratio of measured to computed peak, or its inverse, above which another unit or gain is suspected.
 const PEAKS: f64 = 2.0;
-/// A lag is told of from here on, s …
+/// Least lag that is reported, s, …
 const LAG_S: f64 = 0.15e-3;
-/// … if the mean square difference falls below this part with it.
+/// … if it lowers the mean square difference to this fraction.
 const FALLS_TO: f64 = 0.8;
 
-/// How a measured channel and a computed one go together.
+/// Agreement of a measured channel with the computed one.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Accord {
-    /// Correlation of both, −1 to 1; 0 for a history that does not vary.
+    /// Correlation, −1 to 1; 0 for a constant history.
     pub correlation: f64,
-    /// Largest measured magnitude over the largest computed one; none if nothing is computed.
+    /// Largest measured over largest computed magnitude; none if the computed one is 0.
     pub peak_ratio: Option<f64>,
-    /// By how much the measured signal is late: with this shift, at most 10 ms, both are nearest each other, s.
+    /// Lag of the measured signal, at most 10 ms, for the best agreement, s.
     pub lag_s: f64,
-    /// Mean square difference with that shift over the one without.
+    /// Mean square difference with that shift, relative to that without.
     #[serde(skip)]
     falls_to: f64,
 }
 
 impl Accord {
-    /// Of two histories at 10 kHz over the same times.
+    /// Agreement of two histories at 10 kHz over the same times.
     pub fn of(measured: &[f64], computed: &[f64]) -> Accord {
         let peak = |values: &[f64]| values.iter().fold(0.0, |g: f64, v| g.max(v.abs()));
         let most = MOST_LAG.min(measured.len() / 4);
@@ -55,7 +55,7 @@ impl Accord {
         }
     }
 
-    /// Problems of the test, as far as that can be seen.
+    /// Suspected problems of the test.
     pub fn caution(&self, test: &str, channel: &str) -> Option<String> {
         let of = format!("{channel} of {test}");
         let ratio = self.peak_ratio.unwrap_or(f64::INFINITY);

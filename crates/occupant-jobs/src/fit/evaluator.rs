@@ -18,29 +18,29 @@ use crate::files::study_folder::{Checksums, Folder, Journal, JournalWriter, Prob
 use crate::sweep::words::tell_damaged;
 use occupant_files::table::Cell;
 
-/// The score of a candidate that could not be run: worse than any that could.
+/// Score of a candidate that could not be run, worse than any other.
 pub const WORST: f64 = 1e6;
 
-/// What a candidate came to.
+/// Evaluation of a candidate.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// What it was for; none for the base scenario.
+    /// Its purpose; none for the base scenario.
     pub stage: Option<Stage>,
-    /// Where it stands between the bounds; none for the base scenario.
+    /// Its point in the unit cube; none for the base scenario.
     pub at: Option<Vec<f64>>,
-    /// How good it is; less is better.
+    /// Score; lower is better.
     pub score: f64,
-    /// Misfit of each target, experiment by experiment; empty if it could not be run.
+    /// Misfit of each target by experiment; empty if it could not be run.
     pub parts: Vec<f64>,
-    /// Why it could not be run.
+    /// Reason why it could not be run.
     pub reason: Option<String>,
-    /// Time that its runs took, s. It differs from fit to fit.
+    /// Wall time of its runs, s. It differs from fit to fit.
     pub wall_time_s: f64,
-    /// What computed its last run.
+    /// Kernel of its last run.
     pub kernel: String,
 }
 
-/// Evaluates candidates and remembers them.
+/// Evaluates and stores candidates.
 pub struct Evaluator<'a> {
     fitting: &'a Fitting,
     engine: &'a Engine,
@@ -53,7 +53,7 @@ pub struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Reads what the journal holds. The lock of the folder must be held.
+    /// Reads the journal. The lock of the folder must be held.
     ///
     /// # Errors
     /// An error of the operating system; a journal of something else.
@@ -85,12 +85,12 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    /// How many runs the journal held.
+    /// Number of runs from the journal.
     pub fn known(&self) -> usize {
         self.known.len()
     }
 
-    /// The base scenario, which is evaluated first.
+    /// The base scenario, evaluated first.
     ///
     /// # Errors
     /// As [`Evaluator::scores`].
@@ -133,7 +133,7 @@ impl<'a> Evaluator<'a> {
         Ok(new.iter().map(|r| r.score).collect())
     }
 
-    /// Makes everything safe against a loss of power, and gives the records.
+    /// Syncs everything to disk and returns the records.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -144,7 +144,7 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// What the rows of all experiments say of a candidate.
+/// Evaluation of a candidate from the rows of all experiments.
 fn record(
     fitting: &Fitting,
     stage: Option<Stage>,
@@ -179,7 +179,7 @@ fn record(
     })
 }
 
-/// Refuses the row of a candidate that stands elsewhere than the one asked for.
+/// Refuses a row whose candidate differs from the requested one.
 fn refuse_other(index: u64, found: &[Cell], asked: &[f64]) -> Result<(), Failure> {
     let found = found.iter().filter_map(Cell::number).map(f64::to_bits);
     if found.eq(asked.iter().map(|x| x.to_bits())) {
@@ -191,7 +191,7 @@ fn refuse_other(index: u64, found: &[Cell], asked: &[f64]) -> Result<(), Failure
     ))
 }
 
-/// Candidates under way.
+/// Candidates in progress.
 struct Batch<'a> {
     fitting: &'a Fitting,
     first: u64,
@@ -199,7 +199,7 @@ struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// The candidate and the experiment of a run.
+    /// Candidate and experiment of a run.
     fn place(&self, index: u64) -> (Option<&[f64]>, &Experiment) {
         let experiments = self.fitting.experiments.len() as u64;
         let at = index - self.first;

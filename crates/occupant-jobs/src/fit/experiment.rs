@@ -21,26 +21,26 @@ use crate::files::scenario::Tables;
 pub struct Experiment {
     /// Path of the scenario, for messages and results.
     pub scenario: PathBuf,
-    /// The file that it has with the fitted numbers.
+    /// Name of the file with the fitted values.
     pub fitted: String,
-    /// The text.
+    /// Its text.
     pub text: String,
     /// The study with this scenario as its base.
     pub study: Study,
-    /// Files that the scenario names.
+    /// Files referred to by the scenario.
     pub tables: Tables,
     /// The model without any parameter.
     pub model: Model,
-    /// Measured channels, and of which test each is.
+    /// Measured channels, each with the index of its test.
     pub targets: Vec<(usize, Target)>,
     groups: Vec<(Filter, Vec<Channel>)>,
-    /// The channels that runs record.
+    /// Channels recorded by the runs.
     pub recorded: Vec<Channel>,
-    /// Time between the outputs of its runs, s, where they are denser than the scenario's.
+    /// Output interval of its runs, s, if denser than the scenario's.
     pub dense_s: Option<f64>,
 }
 
-/// What stands between a test and the truth: a time that is added to its clock, and its values over the true ones.
+/// Correction of a test: time offset and gain.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction {
     /// Shift of time, s.
@@ -50,7 +50,7 @@ pub struct Correction {
 }
 
 impl Experiment {
-    /// A scenario to which no test belongs yet.
+    /// A scenario without tests.
     ///
     /// # Errors
     /// Problems of the scenario.
@@ -98,9 +98,9 @@ impl Experiment {
         }
     }
 
-    /// Has the runs write outputs as densely as the tests were sampled: what is compared is then no chord between the
-    /// scenario's outputs. Not denser than 10 kHz, at which all is compared, nor than fixed steps are; a
-    /// study that varies integrator or outputs has them as it says. Gives the note of it.
+    /// Makes the outputs as dense as the samples of the tests, so that the comparison does not use chords between the
+    /// scenario's outputs. At most 10 kHz, the rate of all comparisons, and at most one per fixed step; a study that
+    /// varies integrator or outputs keeps its own.
     pub fn write_densely(&mut self) -> Option<String> {
         let interval_s = self.targets.iter().map(|(_, target)| target.interval_s()).fold(f64::INFINITY, f64::min);
         let setup = self.model.setup();
@@ -125,7 +125,7 @@ impl Experiment {
         ))
     }
 
-    /// First and last output that can be compared, s.
+    /// First and last comparable output, s.
     pub fn run_s(&self) -> [f64; 2] {
         let time = self.model.setup().time;
         // the last output need not be a whole interval after the one before
@@ -133,7 +133,7 @@ impl Experiment {
         [time.start_s, time.start_s + steps as f64 * time.output_s]
     }
 
-    /// Scenario and model with these texts at these places.
+    /// Scenario and model with these values at these paths.
     ///
     /// # Errors
     /// Problems of the scenario then.
@@ -148,7 +148,7 @@ impl Experiment {
         self.tables.open(draft)
     }
 
-    /// The model of a run of the fit with these texts at these places: its outputs may be denser.
+    /// Model of a run of the fit with these values at these paths; its outputs may be denser.
     ///
     /// # Errors
     /// Problems of the scenario then.
@@ -170,7 +170,7 @@ impl Experiment {
         self.model_with(assignments.iter().map(|a| (&a.path, a.text())))
     }
 
-    /// The recorded channels of a run of a model of it, which `also` sees too.
+    /// Recorded channels of a run of a model; `also` observes the run too.
     ///
     /// # Errors
     /// An integration that fails; a run whose results mean nothing.
@@ -183,7 +183,7 @@ impl Experiment {
         }
     }
 
-    /// The recorded channels with these values of all parameters, or without any.
+    /// Recorded channels for these values of all parameters, or for the base scenario.
     ///
     /// # Errors
     /// A scenario that is refused; as [`Experiment::run`].
@@ -191,7 +191,7 @@ impl Experiment {
         self.run(&self.model_of(values).map_err(|e| e.to_string())?, ())
     }
 
-    /// The histories of a run that count, by filter.
+    /// Compared histories of a run, by filter.
     ///
     /// # Errors
     /// Outputs too far apart for a filter.
@@ -215,7 +215,7 @@ impl Experiment {
         self.compared(series, corrections, |target, computed| target.misfit(misfit, computed))
     }
 
-    /// How each target and a run go together.
+    /// Agreement of each target with a run.
     ///
     /// # Errors
     /// Histories that cannot be compared.
@@ -223,7 +223,7 @@ impl Experiment {
         self.compared(series, corrections, |target, computed| Ok(Accord::of(&target.reference, computed)))
     }
 
-    /// Computed less measured of each target, over the largest measured value.
+    /// Computed minus measured values of each target, relative to the largest measured value.
     ///
     /// # Errors
     /// Histories that cannot be compared.
@@ -235,7 +235,7 @@ impl Experiment {
         })
     }
 
-    /// What a comparison says of each target, from the computed values on the grid of its measured ones.
+    /// Applies a comparison to each target, with computed values on the grid of the measured ones.
     fn compared<T>(
         &self,
         series: &Series,
@@ -250,7 +250,7 @@ impl Experiment {
     }
 }
 
-/// The histories of a filter.
+/// Histories of a filter.
 ///
 /// # Errors
 /// A filter that none has.

@@ -12,28 +12,28 @@ use crate::files::scenario::{nothing_was_run, refused};
 use crate::files::study_folder::{Manifest, NamedBy, Text, Texts};
 use crate::sweep::plan::study_text;
 
-/// So many evaluations may come on top of the budget.
+/// Largest number of evaluations beyond the budget.
 const ON_TOP: u64 = 1 << 20;
 
-/// A study, its tests, and the scenarios that stand for them. Shared by all threads.
+/// A study, its tests, and their scenarios. Shared by all threads.
 pub struct Fitting {
-    /// What the study says of the fit.
+    /// The fit section of the study.
     pub fit: Fit,
     /// The experiments.
     pub experiments: Vec<Experiment>,
     /// The tests.
     pub tests: Vec<Test>,
-    /// What is looked for: the parameters of the study, then offsets and gains of tests.
+    /// Fitted parameters: those of the study, then offsets and gains of tests.
     pub parameters: Vec<Parameter>,
-    /// Between which ends the parameters are looked for.
+    /// Bounds of the parameters.
     pub bounds: Vec<Bounds>,
     /// Changes from the command line.
     pub overrides: Vec<String>,
-    /// What the folder of the fit will hold; its first text is the study.
+    /// Manifest of the fit's folder; its first text is the study.
     pub manifest: Manifest,
     /// Bytes of the manifest's texts.
     pub texts: Vec<Vec<u8>>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
@@ -42,24 +42,24 @@ pub struct Fitting {
 pub struct Test {
     /// Its name in results.
     pub name: String,
-    /// Its file, as it was named.
+    /// Its file, as given.
     pub file: String,
     /// SHA-256 of the file.
     pub sha256: String,
-    /// The scenario that stands for it.
+    /// The scenario that reproduces it.
     pub scenario: String,
-    /// That scenario with the fitted numbers.
+    /// File of that scenario with fitted values.
     pub fitted: String,
-    /// Which experiment that scenario is.
+    /// Index of its experiment.
     #[serde(skip)]
     pub experiment: usize,
-    /// Between which ends its offset and its gain are looked for.
+    /// Ranges of its offset and gain.
     #[serde(skip)]
     pub nuisances: [Option<[f64; 2]>; 2],
 }
 
 impl Fitting {
-    /// Reads a study, the scenarios and the tests; `name` is its name in messages.
+    /// Reads a study, its scenarios and its tests; `name` is its name in messages.
     ///
     /// # Errors
     /// All problems, as text.
@@ -87,7 +87,7 @@ impl Fitting {
         Ok(Fitting { fit, experiments, tests, parameters, bounds, overrides, manifest, texts, warnings })
     }
 
-    /// What stands between each test and the truth with these values of all parameters, or without any.
+    /// Corrections of all tests for these values of all parameters, or none.
     pub fn corrections(&self, values: Option<&[f64]>) -> Vec<Correction> {
         let own = self.experiments[0].study.parameters.len();
         let mut found = values.and_then(|values| values.get(own..)).unwrap_or_default().iter();
@@ -102,18 +102,18 @@ impl Fitting {
         self.bounds.iter().zip(at).map(|(b, u)| b.value(*u)).collect()
     }
 
-    /// The score of all targets, experiment by experiment.
+    /// Score from the misfits of all targets, by experiment.
     pub fn score(&self, parts: &[f64]) -> f64 {
         let weights = self.targets().map(|(_, target)| target.weight);
         self.fit.misfit.combined(weights.zip(parts.iter().copied()))
     }
 
-    /// All targets, experiment by experiment, and of which test each is.
+    /// All targets by experiment, each with the index of its test.
     pub fn targets(&self) -> impl Iterator<Item = &(usize, Target)> {
         self.experiments.iter().flat_map(|e| &e.targets)
     }
 
-    /// Where the search begins: at the base scenario's values where they lie between the bounds, else in the middle.
+    /// Start of the search: the base scenario's values where they are between the bounds, else the middle.
     pub fn start(&self) -> Vec<f64> {
         let start = |(parameter, bounds): (&Parameter, &Bounds)| match parameter.nominal() {
             occupant_study::Value::Number(x) => {
@@ -126,7 +126,7 @@ impl Fitting {
     }
 }
 
-/// Offset and gain of a test, as far as they are looked for. They act nowhere in a scenario.
+/// Offset and gain of a test, if fitted. They do not affect the scenario.
 fn nuisances(test: &Test) -> impl Iterator<Item = Parameter> {
     let kinds = [("offset", "s", ApplyChoice::Offset), ("gain", "", ApplyChoice::Factor)];
     kinds.into_iter().zip(test.nuisances).filter_map(|((word, unit, apply), ends)| {
@@ -137,7 +137,7 @@ fn nuisances(test: &Test) -> impl Iterator<Item = Parameter> {
     })
 }
 
-/// Names the fitted scenarios: `fitted.toml`, or a file for each experiment, after its first test.
+/// Names of the fitted scenarios: `fitted.toml`, or a file per experiment, named after its first test.
 fn name_fitted(experiments: &mut [Experiment], mut tests: Vec<Test>) -> Vec<Test> {
     let one = experiments.len() == 1;
     for (e, experiment) in experiments.iter_mut().enumerate() {
@@ -151,7 +151,7 @@ fn name_fitted(experiments: &mut [Experiment], mut tests: Vec<Test>) -> Vec<Test
     tests
 }
 
-/// What the folder of the fit of so many samples will hold, and the bytes of its texts.
+/// Manifest of the fit's folder for this many samples, and the bytes of its texts.
 fn manifest(
     text: &StudyText,
     texts: &Texts,
@@ -173,7 +173,7 @@ fn manifest(
     (manifest, bytes)
 }
 
-/// All problems as the end of the command, each once.
+/// All problems as the failure of the command, each once.
 fn ended(problems: &[String], study: &str) -> String {
     let mut blocks: Vec<&str> = Vec::new();
     for block in problems.iter().flat_map(|p| p.split("\n\n")) {

@@ -8,13 +8,13 @@ use serde::Serialize;
 use super::{Evaluator, Fitting, Record, WORST};
 use crate::base::Failure;
 
-/// Scores that differ by less are the same where a study says nothing, the likelihood of "rms" apart.
+/// Difference of scores that counts as equal by default, except for the likelihood of "rms".
 const SAME: f64 = 0.01;
-/// Root mean square differences below this part of the peak are none.
+/// RMS difference, relative to the peak, that counts as zero.
 const NONE: f64 = 5e-4;
-/// How often a lower point that was met on the way to an interval begins everything after the descents anew.
+/// Largest number of restarts after the descents because a lower point was found.
 const ANEW: usize = 3;
-/// A lower point counts as such by this part of the rise.
+/// Least improvement of a lower point, relative to the rise.
 const LOWER: f64 = 0.05;
 
 /// The best parameters and how well they are determined. Costs are [`Misfit::cost`] of scores.
@@ -25,11 +25,11 @@ pub struct Answer {
     pub global: Global,
     /// The best point; its value is a cost.
     pub best: Point,
-    /// By how much the cost rises to where sets count as worse.
+    /// Rise of the cost up to which sets count as equally good.
     pub rise: f64,
-    /// How near it lies to its bounds.
+    /// Definition of equally good sets.
     pub near: Near,
-    /// How far each parameter can go alone.
+    /// Reach of each parameter alone.
     pub reaches: Vec<[Reach; 2]>,
     /// Curvature and correlations.
     pub shape: Shape,
@@ -37,16 +37,16 @@ pub struct Answer {
     pub profiles: Profiles,
 }
 
-/// What says which sets are as good as the best.
+/// Criterion for equally good sets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Near {
-    /// Of what.
+    /// Name of the criterion.
     pub by: &'static str,
-    /// Residuals that are unrelated, where the likelihood says so.
+    /// Number of independent residuals, for the likelihood criterion.
     pub unrelated_residuals: Option<f64>,
 }
 
-/// Searches, refines, and looks how well the answer is determined.
+/// Searches, refines, and determines the uncertainty of the result.
 ///
 /// # Errors
 /// A signal, a full disk, a fit in which no candidate could be run.
@@ -101,7 +101,7 @@ fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, 
     )))
 }
 
-/// By how much the cost of the best point may rise until a set counts as worse.
+/// Rise of the cost above the best point up to which sets count as equally good.
 fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     let misfit = fitting.fit.misfit;
     let score = misfit.of_cost(best.value);

@@ -21,22 +21,22 @@ use occupant_files::signals::Recording;
 pub struct Given<'a> {
     /// The files.
     pub files: &'a [PathBuf],
-    /// Which column is which channel, in all of them.
+    /// Assignment of columns to channels, for all of them.
     pub maps: &'a [MapArgument],
     /// Changes in all scenarios.
     pub overrides: &'a [String],
 }
 
-/// A test whose file is known.
+/// A test with a known file.
 struct Named {
     test: FitTest,
     file: PathBuf,
     by: (NamedBy, String),
-    /// Where it stands in the study; empty for one of the command line.
+    /// Its path in the study; empty for one from the command line.
     at: String,
 }
 
-/// Work on a fit that is being opened, with the problems found so far.
+/// A fit being opened, with the problems found so far.
 pub(super) struct Opening<'a> {
     folder: &'a Path,
     text: &'a StudyText,
@@ -45,7 +45,7 @@ pub(super) struct Opening<'a> {
     pub(super) problems: Vec<String>,
     pub(super) warnings: Vec<String>,
     pub(super) experiments: Vec<Experiment>,
-    /// Tests whose scenarios were opened, and what became of each.
+    /// Tests whose scenarios were opened, with the result.
     known: Vec<(FitTest, Option<usize>)>,
 }
 
@@ -60,7 +60,7 @@ impl<'a> Opening<'a> {
         self.problems.push(problem.to_string());
     }
 
-    /// The tests with their files: those of the study, and where it leaves files out those of the command line, in order.
+    /// Tests with their files: those of the study, and for missing files those of the command line, in order.
     fn named(&mut self, fit: &Fit) -> Vec<Named> {
         let files = self.given.files;
         let of_study = !fit.tests.is_empty();
@@ -91,7 +91,7 @@ impl<'a> Opening<'a> {
         named.collect()
     }
 
-    /// Reads tests and scenarios and brings them together.
+    /// Reads tests and scenarios and combines them.
     pub(super) fn tests(&mut self, fit: &Fit) -> Vec<Test> {
         let mut tests: Vec<Test> = Vec::new();
         let mut met: BTreeSet<String> = BTreeSet::new();
@@ -131,7 +131,7 @@ impl<'a> Opening<'a> {
         tests
     }
 
-    /// Complains of channels that no test has a signal for.
+    /// Reports channels for which no test has a signal.
     fn refuse_unmet(&mut self, fit: &Fit, met: &BTreeSet<String>) {
         for (i, channel) in fit.channels.iter().enumerate().filter(|(_, c)| !met.contains(&c.name)) {
             let found = format!("no test has a signal for `{}`", channel.name);
@@ -141,7 +141,7 @@ impl<'a> Opening<'a> {
         }
     }
 
-    /// The scenario that represents a test: one that is there already, or a new one; none if it was refused.
+    /// The scenario of a test: an existing one or a new one; none if it was refused.
     fn experiment(&mut self, named: &Named) -> Option<usize> {
         let test = &named.test;
         let same = |(known, _): &&(FitTest, Option<usize>)| (&known.base, &known.set) == (&test.base, &test.set);
@@ -188,7 +188,7 @@ impl<'a> Opening<'a> {
         Ok(experiment)
     }
 
-    /// The files that a scenario names; one that cannot be read is reported when the scenario is opened.
+    /// Files referred to by a scenario; an unreadable one is reported when the scenario is opened.
     fn tables(&self, study: &Study, base: &str) -> Tables {
         let beside = Path::new(base).parent().unwrap_or(Path::new(""));
         let read = |(_, name): (String, String)| {
@@ -247,7 +247,7 @@ impl<'a> Opening<'a> {
         targets
     }
 
-    /// The signals of a test that are channels which count.
+    /// Signals of a test for the compared channels.
     fn pairs(&mut self, named: &Named, recording: &Recording, wanted: &[(Channel, FitChannel)]) -> Vec<Pair> {
         let Some(maps) = self.maps(named) else {
             return Vec::new();
@@ -267,7 +267,7 @@ impl<'a> Opening<'a> {
         pairs
     }
 
-    /// The channels that count, in this scenario; none if the study names one that does not exist.
+    /// Compared channels in this scenario; none if the study names a missing one.
     fn wanted(&mut self, fit: &Fit, experiment: usize) -> Option<Vec<(Channel, FitChannel)>> {
         let model = self.experiments[experiment].model.clone();
         if fit.channels.is_empty() {

@@ -13,29 +13,29 @@ use crate::files::study_folder::{Checksums, Folder};
 
 /// Writes the results of a fit.
 pub struct Output<'a> {
-    /// What is fitted.
+    /// The fit.
     pub fitting: &'a Fitting,
     /// The folder.
     pub folder: &'a Folder,
-    /// Checksums of what was read.
+    /// Checksums of the inputs.
     pub sums: &'a Checksums,
 }
 
-/// What the fitted scenarios came to.
+/// Results of the fitted scenarios.
 #[derive(Default)]
 pub struct FittedRuns {
-    /// The numbers as they are written.
+    /// The values as written.
     pub written: Vec<Fitted>,
-    /// Misfit of each target, and how it and its run go together, experiment by experiment.
+    /// Misfit of each target and its agreement with the run, by experiment.
     pub parts: Vec<(f64, Accord)>,
     /// The runs of each experiment.
     runs: Vec<Pair>,
-    /// What is to know of their figures.
+    /// Caveats on their figures.
     pub caveats: Vec<String>,
 }
 
 impl Output<'_> {
-    /// Fitted scenarios, history, plots, and fit.json last.
+    /// Writes fitted scenarios, history, plots, and fit.json last.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -61,7 +61,7 @@ impl Output<'_> {
         Ok(result)
     }
 
-    /// Runs a scenario with the numbers as they will be written, and without.
+    /// Runs a scenario with the values as written, and without.
     fn run_fitted(
         &self,
         experiment: &Experiment,
@@ -101,7 +101,7 @@ impl Output<'_> {
         tables.try_for_each(|(table, bytes)| self.put(&folder.join(table), bytes))
     }
 
-    /// Writes a file of the folder, whole or not at all.
+    /// Writes a file of the folder, atomically.
     fn put(&self, name: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let path = self.folder.path.join(name);
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);

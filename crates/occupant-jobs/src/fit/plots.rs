@@ -15,7 +15,8 @@ pub struct Pair {
     pub after: Series,
 }
 
-/// The sheet of each test, with its name, the test as corrected. `runs` has a pair for each experiment; `lines` stand below the headings.
+/// A sheet per test, with its name and the corrected test. `runs` has a pair per experiment; `lines` are below the
+/// headings.
 ///
 /// # Errors
 /// Histories that cannot be drawn.
@@ -43,7 +44,7 @@ pub fn sheets(
     Ok(sheets)
 }
 
-/// Histories of a run by filter, and how the run is called.
+/// Histories of a run by filter, and the name of the run.
 type Computed = (&'static str, Vec<(Filter, Histories)>);
 
 fn figure(target: &Target, correction: Correction, file: &str, computed: &[Computed]) -> Result<Figure, String> {

@@ -7,34 +7,34 @@ use occupant_study::search::Stage;
 use super::{Record, WORST};
 use crate::base::progress::{Runs, Show};
 
-/// At most a line so often where there is no terminal, stages apart.
+/// Interval of progress lines without a terminal, besides one per stage.
 const LINE_EVERY: Duration = Duration::from_secs(2);
 
-/// How far a fit is.
+/// Progress of a fit.
 #[derive(Debug)]
 pub struct Progress {
     runs: Runs,
     budget: u64,
     evaluations: u64,
     best: f64,
-    /// The best score that a line has said.
+    /// The best score reported so far.
     said: f64,
     stage: &'static str,
 }
 
 impl Progress {
-    /// Of a search of so many evaluations.
+    /// Progress of a search with this budget of evaluations.
     pub fn new(budget: u64, show: Show) -> Self {
         let runs = Runs::new(budget, "evaluations", LINE_EVERY, show);
         Progress { runs, budget, evaluations: 0, best: f64::INFINITY, said: f64::INFINITY, stage: "" }
     }
 
-    /// So many evaluations were there before.
+    /// Sets the number of earlier evaluations.
     pub fn from(self, before: u64) -> Self {
         Progress { runs: self.runs.from(before), ..self }
     }
 
-    /// What a batch came to.
+    /// Records a batch.
     pub fn see(&mut self, stage: Option<Stage>, records: &[Record]) {
         self.evaluations += records.len() as u64;
         let least = records.iter().map(|r| r.score).fold(f64::INFINITY, f64::min);
@@ -58,18 +58,18 @@ impl Progress {
         }
     }
 
-    /// No more.
+    /// Ends the display.
     pub fn end(&self) {
         self.runs.end();
     }
 }
 
-/// A score in words.
+/// A score as text.
 fn score(score: f64) -> String {
     if score < WORST { format!("score {score:.5}") } else { "no completed run yet".to_owned() }
 }
 
-/// A stage's name, and in words.
+/// Name of a stage, and its description.
 pub fn words_of(stage: Option<Stage>) -> (&'static str, String) {
     match stage {
         None => ("base", "base scenario".to_owned()),

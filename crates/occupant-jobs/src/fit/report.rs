@@ -44,7 +44,7 @@ fn overview(result: &FitResult) -> String {
 }
 
 impl ParameterEstimate {
-    /// A value in its shown unit.
+    /// A value in its display unit.
     fn number(&self, si: f64) -> String {
         short(si / self.shown.1)
     }
@@ -91,7 +91,7 @@ fn parameters(result: &FitResult) -> String {
     table.text()
 }
 
-/// Pairs that make up for each other, and how far.
+/// Pairs of parameters that compensate each other, with their correlation.
 fn compensating(result: &FitResult) -> String {
     let mut lines = Vec::new();
     for pair in result.correlations.iter().filter(|c| c.correlation.abs() > COMPENSATING) {
@@ -132,7 +132,7 @@ fn channels(result: &FitResult) -> String {
     table.text()
 }
 
-/// What is said of a fitted number in the scenario.
+/// Provenance text of a fitted value in the scenario.
 pub fn provenance(result: &FitResult, p: &ParameterEstimate) -> String {
     let factor = match p.apply {
         ApplyChoice::Value => String::new(),
@@ -160,7 +160,7 @@ pub fn provenance(result: &FitResult, p: &ParameterEstimate) -> String {
     )
 }
 
-/// So much of a checksum as tells files apart; fit.json has the whole.
+/// Start of a checksum, enough to distinguish files; fit.json has it all.
 fn start(sha256: &str) -> &str {
     sha256.get(..16).unwrap_or(sha256)
 }

@@ -9,10 +9,10 @@ use super::{Accord, Answer, Fitted, FittedRuns, Fitting, Near, Record, Test, Ver
 use crate::compare::Source;
 use crate::files::history::class_name;
 
-/// Correlations beyond this say that two parameters compensate each other.
+/// Correlation above which two parameters compensate each other.
 pub const COMPENSATING: f64 = 0.9;
 
-/// All of fit.json.
+/// Content of fit.json.
 #[derive(Serialize)]
 pub struct FitResult {
     /// The program that computed it.
@@ -23,40 +23,40 @@ pub struct FitResult {
     pub study: Source,
     /// Changes from the command line.
     pub overrides: Vec<String>,
-    /// What was made small.
+    /// Objective that was minimised.
     pub objective: &'static str,
-    /// Names the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Evaluations that the global search could use.
+    /// Budget of the global search, evaluations.
     pub budget: u64,
-    /// Scores of a descent that differ by less are the same.
+    /// Difference of scores that counts as converged.
     pub tolerance: f64,
     /// The tests.
     pub tests: Vec<Test>,
-    /// How good it is.
+    /// Scores.
     pub score: Score,
-    /// What the intervals hold.
+    /// Definition of the intervals.
     pub near: NearOptimal,
     /// The parameters.
     pub parameters: Vec<ParameterEstimate>,
-    /// Correlations of near-optimal sets, each pair once; those with a parameter at a bound are missing.
+    /// Correlations among near-optimal sets, each pair once; pairs with a parameter at a bound are missing.
     pub correlations: Vec<Correlation>,
-    /// The numbers as they stand in the fitted scenarios.
+    /// Values in the fitted scenarios.
     pub written: Vec<Fitted>,
     /// The descents of the global search.
     pub descents: Vec<DescentResult>,
-    /// How many evaluations were made, and for what.
+    /// Number of evaluations by purpose.
     pub evaluations: Evaluations,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
-/// Scores; 0 is a run that is the test.
+/// Scores; 0 for a run equal to the test.
 #[derive(Serialize)]
 pub struct Score {
-    /// Of the base scenario; none if it could not be run.
+    /// Score of the base scenario; none if it could not be run.
     pub before: Option<f64>,
-    /// Of the fitted scenario, with the numbers as they are written.
+    /// Score of the fitted scenario, with values as written.
     pub after: f64,
     /// The channels.
     pub channels: Vec<ChannelFit>,
@@ -73,7 +73,7 @@ pub struct ChannelFit {
     pub signal: String,
     /// Filter of both.
     pub filter: String,
-    /// How much it counts.
+    /// Weight.
     pub weight: f64,
     /// First and last time compared, s.
     pub window_s: [f64; 2],
@@ -81,20 +81,20 @@ pub struct ChannelFit {
     pub before: Option<f64>,
     /// Misfit of the fitted scenario.
     pub after: f64,
-    /// How it and the fitted scenario go together.
+    /// Agreement of the test with the fitted scenario.
     #[serde(flatten)]
     pub accord: Accord,
 }
 
-/// What the intervals hold.
+/// Definition of the intervals.
 #[derive(Serialize)]
 pub struct NearOptimal {
-    /// Sets with a score up to this count as good as the best.
+    /// Largest score of sets that count as equally good.
     pub score: f64,
-    /// How near it lies to its bounds.
+    /// The criterion.
     #[serde(flatten)]
     pub near: Near,
-    /// How many of the evaluated sets are as good.
+    /// Number of evaluated sets that are equally good.
     pub sets: usize,
 }
 
@@ -105,34 +105,34 @@ pub struct ParameterEstimate {
     pub name: String,
     /// SI unit; empty for factors and plain numbers.
     pub unit: &'static str,
-    /// The unit that tables show it in, and how many SI units that is.
+    /// Display unit, and its SI value.
     #[serde(skip)]
     pub shown: (String, f64),
-    /// What is done with the number.
+    /// How the number changes the scenario's value.
     pub apply: ApplyChoice,
-    /// Where it acts.
+    /// Paths that it changes.
     pub places: Vec<String>,
-    /// Between which ends it was looked for.
+    /// Bounds of the search.
     pub bounds: [f64; 2],
-    /// Whether equal ratios were equal steps.
+    /// Whether the search was logarithmic.
     pub log: bool,
-    /// What the base scenario says, where that is one number.
+    /// The base scenario's value, if it is a single number.
     pub base: Option<f64>,
     /// The fitted value.
     pub value: f64,
-    /// Between these all other parameters can make up for it.
+    /// Interval in which the other parameters can compensate for it.
     pub interval: [f64; 2],
-    /// Whether each end of the interval is a bound, of this or of another parameter, and not the score.
+    /// Whether each end of the interval is set by a bound, of this or another parameter, instead of the score.
     pub open: [bool; 2],
-    /// Between these it can go alone.
+    /// Interval for this parameter alone.
     pub alone: [f64; 2],
-    /// Least and largest among the evaluated sets that are as good as the best.
+    /// Least and largest value among the evaluated sets that are equally good.
     pub near_optimal: [f64; 2],
     /// How well it is identified.
     pub verdict: Verdict,
-    /// The same in words.
+    /// The verdict as text.
     pub words: String,
-    /// Parameters that make up for it.
+    /// Parameters that compensate for it.
     pub compensated_by: Vec<String>,
     /// All parameters and the score at both ends of the interval.
     pub ends: [IntervalEnd; 2],
@@ -143,11 +143,11 @@ pub struct ParameterEstimate {
 pub struct IntervalEnd {
     /// The values of all parameters there, in their order.
     pub values: Vec<f64>,
-    /// How good it is; less is better.
+    /// Score; lower is better.
     pub score: f64,
 }
 
-/// How two parameters go together.
+/// Correlation of two parameters.
 #[derive(Serialize)]
 pub struct Correlation {
     /// Names of both.
@@ -156,20 +156,20 @@ pub struct Correlation {
     pub correlation: f64,
 }
 
-/// What a descent came to.
+/// Result of a descent.
 #[derive(Serialize)]
 pub struct DescentResult {
-    /// Candidates of a generation.
+    /// Population.
     pub population: usize,
-    /// Runs that it took.
+    /// Runs used.
     pub evaluations: u64,
     /// Least score.
     pub score: f64,
-    /// Why it ended.
+    /// Reason why it ended.
     pub ended: &'static str,
 }
 
-/// How many evaluations were made.
+/// Numbers of evaluations.
 #[derive(Serialize, Default)]
 pub struct Evaluations {
     /// By the global search.
@@ -178,16 +178,16 @@ pub struct Evaluations {
     pub refinement: usize,
     /// For curvature and intervals.
     pub intervals: usize,
-    /// All, the base scenario included.
+    /// All, including the base scenario.
     pub all: usize,
     /// Those that could not be run.
     pub failed: usize,
-    /// Why not, of the first of them.
+    /// Reason of the first failure.
     pub reason: Option<String>,
 }
 
 impl FitResult {
-    /// Puts everything together.
+    /// Assembles the result.
     pub fn of(fitting: &Fitting, answer: &Answer, records: &[Record], fitted: FittedRuns) -> FitResult {
         let (misfit, study) = (fitting.fit.misfit, &fitting.manifest.texts[0]);
         let limit = misfit.of_cost(answer.best.value + answer.rise);
@@ -271,7 +271,7 @@ fn evaluations(records: &[Record]) -> Evaluations {
     count
 }
 
-/// What should be said of the answer.
+/// Remarks on the result.
 fn remarks(
     fitting: &Fitting,
     answer: &Answer,

@@ -15,22 +15,21 @@ use crate::files::scenario::format_of;
 /// Significant digits of fitted numbers.
 const DIGITS: usize = 6;
 
-/// A number that a fit has put into a scenario.
+/// A fitted value written to a scenario.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fitted {
     /// The file of that scenario.
     pub fitted: String,
     /// The path.
     pub path: String,
-    /// As it is written there.
+    /// Its text.
     pub text: String,
-    /// Which parameter it comes from.
+    /// Index of its parameter.
     #[serde(skip)]
     pub parameter: usize,
 }
 
-/// The numbers that values of the parameters (SI) put into the scenario of an experiment, each in the unit of its place and
-/// rounded.
+/// Values that the parameters (SI) set in the scenario of an experiment, rounded, each in the unit of its path.
 ///
 /// # Errors
 /// A place at which no number can be written.
@@ -51,7 +50,7 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
     study.assignments_of(values).into_iter().map(number).collect()
 }
 
-/// The scenario of an experiment with these numbers and their provenance, TOML, and whether the author's words were kept.
+/// The scenario of an experiment with these values and their provenance, TOML, and whether the author's text was kept.
 ///
 /// # Errors
 /// Numbers that the scenario refuses.
@@ -75,14 +74,14 @@ pub fn fitted(
     Ok((format!("{head}{text}"), kept))
 }
 
-/// Whether a text says this scenario.
+/// Whether a text defines this scenario.
 fn says(experiment: &Experiment, text: &str, wanted: &Scenario) -> bool {
     let draft = Draft::read(text, Format::Toml, "fitted");
     let found = draft.and_then(|draft| experiment.tables.open(draft));
     found.is_ok_and(|(loaded, ..)| loaded.scenario == *wanted)
 }
 
-/// The author's text with everything put in that the study, the command line and the fit have changed.
+/// The author's text with all changes by the study, the command line and the fit.
 fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, String)]) -> Option<String> {
     let mut document: DocumentMut = experiment.text.parse().ok()?;
     let changes = experiment.study.changes.iter();
@@ -109,8 +108,8 @@ fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, S
     Some(document.to_string())
 }
 
-/// Puts a value at a place, with the blanks and comments of the old one; none if the text has no such place and none can
-/// be made.
+/// Sets a value at a path, keeping blanks and comments of the old one; none if the path does not exist and cannot be
+/// created.
 fn put(item: &mut Item, steps: &[Step], mut new: Value) -> Option<()> {
     let Some((step, rest)) = steps.split_first() else {
         let old = item.as_value_mut()?;
@@ -132,7 +131,7 @@ fn put(item: &mut Item, steps: &[Step], mut new: Value) -> Option<()> {
     put(next, rest, new)
 }
 
-/// The same below a table, where what the place needs is made.
+/// Sets a value below a table, creating missing parents.
 fn put_in_table(table: &mut dyn TableLike, inline: bool, steps: &[Step], new: Value) -> Option<()> {
     let (Step::Key(key), rest) = steps.split_first()? else {
         return None;

@@ -21,19 +21,19 @@ pub struct Target {
     pub channel: Channel,
     /// Filter class of both sides.
     pub class: Option<ChannelClass>,
-    /// Filter as the study says it.
+    /// Filter as given in the study.
     pub filter: Filter,
-    /// How much it counts, its test's weight included.
+    /// Weight, including its test's.
     pub weight: f64,
     /// The measured signal, filtered, on the clock of the run.
     pub measured: Pair,
-    /// First and last time that count, s.
+    /// First and last time compared, s.
     pub window_s: [f64; 2],
     /// The measured values at 10 kHz in that window.
     pub reference: Vec<f64>,
 }
 
-/// The filter of a study's word.
+/// The filter for a word of a study.
 pub fn filter_of(choice: FilterChoice) -> Filter {
     match choice {
         FilterChoice::None => Filter::None,
@@ -46,7 +46,7 @@ pub fn filter_of(choice: FilterChoice) -> Filter {
 }
 
 impl Target {
-    /// A measured signal made ready; `run_s` are first and last output of the run.
+    /// A measured signal prepared for comparison; `run_s` are first and last output of the run.
     ///
     /// # Errors
     /// No common time, missing values, samples that cannot be filtered, nothing in the signal.
@@ -85,7 +85,7 @@ impl Target {
         median(&pairs.collect::<Vec<_>>()).unwrap_or(f64::INFINITY)
     }
 
-    /// The computed values on the grid of the measured ones, as the test would have measured them.
+    /// Computed values on the grid of the measured ones, with the corrections of the test.
     ///
     /// # Errors
     /// Histories without this channel, or with values missing in the window.
@@ -99,7 +99,7 @@ impl Target {
         Ok(values)
     }
 
-    /// How far computed values are from the measured ones.
+    /// Misfit of computed values.
     ///
     /// # Errors
     /// Values that cannot be compared.

@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use super::{Answer, COMPENSATING, Fitting, IntervalEnd, ParameterEstimate, Record};
 
-/// An interval of more than this part of the range, both ends of which are bounds, says nothing.
+/// Largest interval, as a fraction of the range, between two bounds that still identifies a parameter.
 const WIDE: f64 = 0.25;
-/// An interval of more than this part of the range says little.
+/// Interval, as a fraction of the range, above which a parameter is weakly identified.
 const VAGUE: f64 = 0.4;
-/// An interval of more than this part of the range says nothing.
+/// Interval, as a fraction of the range, above which a parameter is not identified.
 const EVERYTHING: f64 = 0.8;
-/// Nearer than this to a bound is at it.
+/// Distance to a bound that counts as being at it.
 const AT: f64 = 1e-3;
 
 /// How well a parameter is identified.
@@ -21,19 +21,19 @@ const AT: f64 = 1e-3;
 pub enum Verdict {
     /// The score rises on both sides.
     Identified,
-    /// The score rises on both sides, far away.
+    /// The score rises on both sides, but far away.
     Weak,
     /// The score rises on one side only.
     OneSided,
-    /// The score would go on falling below the lower bound.
+    /// The score would fall further below the lower bound.
     AtLowerBound,
-    /// The score would go on falling beyond the upper bound.
+    /// The score would fall further above the upper bound.
     AtUpperBound,
-    /// The test does not say what it is.
+    /// The test does not determine it.
     NotIdentified,
 }
 
-/// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
+/// All parameters with their verdicts; `sets` are the evaluated equally good sets.
 pub fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterEstimate> {
     let parameters = 0..fitting.parameters.len();
     parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
@@ -75,7 +75,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
     }
 }
 
-/// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
+/// Display unit of a parameter, and its SI value: the unit used in the scenario.
 fn shown_unit(fitting: &Fitting, i: usize) -> (String, f64) {
     let parameter = &fitting.parameters[i];
     let base = &fitting.experiments[0].study.base;
@@ -92,7 +92,7 @@ fn alone(bounds: Bounds, u: f64, [down, up]: [f64; 2]) -> [f64; 2] {
     [bounds.value((u - down).max(0.0)), bounds.value((u + up).min(1.0))]
 }
 
-/// Whether a bound, of this or of another parameter, ends the interval.
+/// Whether the interval ends at a bound, of this or another parameter.
 fn is_open(end: &End, best: &[f64]) -> bool {
     let at_bound = |u: f64| !(AT..=1.0 - AT).contains(&u);
     let others = end.point.at.iter().zip(best);
@@ -111,7 +111,7 @@ fn verdict(u: f64, ends: &[End; 2], open: [bool; 2]) -> Verdict {
     }
 }
 
-/// The parameters that make up for this one.
+/// Parameters that compensate for this one.
 fn partners(fitting: &Fitting, answer: &Answer, i: usize) -> Vec<String> {
     let parameters = fitting.parameters.iter().enumerate();
     let makes_up = |j: usize| {

@@ -11,35 +11,35 @@ use occupant_files::signals::Recording;
 
 pub use path::{PathFilter, PathTable};
 
-/// What is asked for.
+/// A requested import.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
-    /// Place of the vehicle's sensors; if absent the centre of gravity, or a typical place.
+    /// Location of the vehicle's sensors; if absent the centre of gravity, or a representative location.
     pub place: Option<&'a str>,
-    /// First and last time of what is written, s.
+    /// First and last time to write, s.
     pub window_s: [Option<f64>; 2],
-    /// Speed when the path starts, as a scenario has it.
+    /// Initial speed of the path, as in a scenario.
     pub speed: Option<&'a str>,
-    /// Which way axes point, if it was said.
+    /// Direction of axes, if given.
     pub axes: Option<Axes>,
-    /// The longest hole that is bridged, s.
+    /// Longest gap that is bridged, s.
     pub bridge_s: Option<f64>,
-    /// Rests at the beginning and at the end, as a scenario has them.
+    /// Rests at the start and at the end, as in a scenario.
     pub baseline: [Option<&'a str>; 2],
-    /// The low-pass of the path, if it was said.
+    /// Low-pass filter of the path, if given.
     pub filter: Option<PathFilter>,
-    /// How far the centre of gravity lies ahead of the point that a trajectory follows, as a scenario has it.
+    /// Distance of the centre of gravity ahead of the point that follows the trajectory, as in a scenario.
     pub cg: Option<&'a str>,
 }
 
-/// What became of a record.
+/// Result of an import.
 #[derive(Debug)]
 pub struct Made {
     /// The vehicle's path; none if the record has none.
     pub path: Option<PathTable>,
     /// The curves as a table, and how many they are; none if all is path.
     pub curves: Option<(Vec<u8>, usize)>,
-    /// What to know of it.
+    /// Notes.
     pub notes: Vec<String>,
 }
 
@@ -84,7 +84,7 @@ fn speed(text: &str) -> Result<f64, String> {
     KINDS[SPEED].read(text).map_err(|error| error.found)
 }
 
-/// The samples between two times; signals without any are left out.
+/// Samples between two times; signals without any are left out.
 fn within(recording: &Recording, [from_s, to_s]: [Option<f64>; 2]) -> Recording {
     let mut recording = recording.clone();
     let is_in = |t: f64| from_s.is_none_or(|from| t >= from) && to_s.is_none_or(|to| t <= to);

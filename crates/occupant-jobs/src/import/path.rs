@@ -15,21 +15,21 @@ use occupant_files::signals::{Recording, Signal};
 pub struct PathTable {
     /// The table as CSV.
     pub csv: Vec<u8>,
-    /// What it is, as text.
+    /// Description.
     pub words: String,
-    /// The keys of the section but for `file`.
+    /// Keys of the section except `file`.
     pub keys: Vec<String>,
     /// First and last time of the run, s.
     pub run_s: [f64; 2],
-    /// Names of the signals that it is made of.
+    /// Names of the signals that it is built from.
     pub(super) signals: Vec<String>,
     /// Whether it has motion along x.
     pub(super) is_forward: bool,
 }
 
-/// Length of the beginning of a record that says whether gravity is in it, s.
+/// Duration at the start of a record used to detect gravity in it, s.
 const BEFORE_S: f64 = 0.01;
-/// Samples that are at most so far apart can be filtered by CFC 60, s.
+/// Largest sample interval for CFC 60, s.
 const FILTERED_S: f64 = 5e-4;
 /// A run of a crash is not shorter, s: an occupant needs so long to reach his greatest excursion.
 const SHORTEST_RUN_S: f64 = 0.15;
@@ -110,7 +110,7 @@ fn begin_at_zero(motion: &mut Motion, notes: &mut Vec<String>) {
     }
 }
 
-/// The key that says which way axes point, and what was taken for granted of it.
+/// The key for the direction of axes, and the assumption made.
 fn axes(motion: &Motion, imported: &Imported, request: &Request, notes: &mut Vec<String>) -> Vec<String> {
     let has_sides =
         ["y", "z", "roll", "pitch", "yaw", "ay", "az", "wx", "wy", "wz", "dvy"].iter().any(|name| motion.has(name));
@@ -124,14 +124,14 @@ fn axes(motion: &Motion, imported: &Imported, request: &Request, notes: &mut Vec
     }
 }
 
-/// A low-pass of what becomes a path.
+/// Low-pass filter of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathFilter {
     /// None at all.
     None,
     /// A channel frequency class, for accelerations and rates.
     Class(u32),
-    /// From this frequency on, Hz, for places and angles.
+    /// Cutoff frequency, Hz, for positions and angles.
     Frequency(f64),
 }
 
@@ -200,7 +200,7 @@ fn keys_of_sensors(
     Ok((keys, speed_m_s))
 }
 
-/// The speed that a recorder tells of the time before the crash: its name, and the last at time zero of the record or before, m/s.
+/// Speed recorded before the crash: its name, and the last value at or before time zero, m/s.
 fn recorded_speed(recording: &Recording) -> Option<(&str, f64, f64)> {
     let speed = Unit::MetrePerSecond.dimension();
     let is_speed = |signal: &&Signal| speed_named(&signal.name) && signal.scale.is_some_and(|s| s.dimension == speed);
@@ -231,7 +231,7 @@ fn keys_of_places(request: &Request) -> Result<Vec<String>, Failure> {
     Ok(["kind = \"table\"".to_owned()].into_iter().chain(offset).chain(filter).chain([after]).collect())
 }
 
-/// What gravity does in the record: a level vehicle before its crash reads −1 g along z, or 0 without gravity.
+/// Gravity in the record: a level vehicle before its crash reads −1 g along z, or 0 without gravity.
 fn gravity(motion: &Motion) -> &'static str {
     let Some(az) = motion.si("az") else { return "removed" };
     let first_s = motion.time_s[0] + BEFORE_S;

@@ -4,12 +4,12 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::{Serialize, Serializer};
 
-/// Numbers of one kind that travel as base64.
+/// Numbers of one type, encoded as base64.
 #[derive(Debug, Default)]
 pub struct Array(Vec<u8>);
 
 impl Array {
-    /// Adds numbers of single precision: 7 figures, enough for the eye.
+    /// Adds single-precision numbers: 7 digits, enough for display.
     pub fn float32(&mut self, values: impl IntoIterator<Item = f64>) {
         self.0.extend(values.into_iter().flat_map(|v| (v as f32).to_le_bytes()));
     }
@@ -19,12 +19,12 @@ impl Array {
         self.0.extend(values.iter().flat_map(|v| v.to_le_bytes()));
     }
 
-    /// Adds a small count; a greater one is the largest.
+    /// Adds a small count, clamped to the largest.
     pub fn uint16(&mut self, value: usize) {
         self.0.extend(u16::try_from(value).unwrap_or(u16::MAX).to_le_bytes());
     }
 
-    /// Adds a count; a greater one is the largest.
+    /// Adds a count, clamped to the largest.
     pub fn uint32(&mut self, value: usize) {
         self.0.extend(u32::try_from(value).unwrap_or(u32::MAX).to_le_bytes());
     }

@@ -9,7 +9,7 @@ use crate::base::Units;
 
 use super::array::Array;
 
-/// Spheres with the largest contact forces that are plotted.
+/// Largest number of spheres whose contact forces are plotted.
 const MOST_SPHERES: usize = 8;
 
 /// A plot.
@@ -27,7 +27,7 @@ struct Curve {
     values: Array,
 }
 
-/// A plot: its title, the unit that its channels are shown in, and its channels.
+/// A plot: title, display unit, and channels.
 const RECIPES: [(&str, &str, &Curves); 9] = [
     ("Resultant acceleration", "g", ACCELERATIONS),
     ("Belt force", "kN", WEBBING),
@@ -41,10 +41,10 @@ const RECIPES: [(&str, &str, &Curves); 9] = [
     ("Energy balance error", "J", BALANCE),
 ];
 const CONTACT_FORCE: &str = "Contact force";
-/// What each occupant's own channels show, by title: those of one of several have the occupant's name before theirs.
+/// Titles of plots with each occupant's own channels; with several occupants, names are prefixed.
 const OWN: [&str; 4] = [RECIPES[0].0, RECIPES[3].0, RECIPES[4].0, RECIPES[5].0];
 
-/// A recorder of all channels that the plots need.
+/// A recorder of all channels needed by the plots.
 pub fn series(model: &Model) -> Series {
     let needed = |c: &Channel| {
         let after = c.name.split_once('.').map_or("", |(_, after)| after);
@@ -56,7 +56,7 @@ pub fn series(model: &Model) -> Series {
     Series::new(channels(model).into_iter().filter(needed).collect())
 }
 
-/// The plots, without those that would be empty. Prefixes are what stands before the names of each occupant's channels.
+/// The plots, without empty ones. Prefixes are those of each occupant's channels.
 pub fn plots(series: &Series, prefixes: &[String], units: Units) -> Vec<Plot> {
     let of_each = |recipe: (&'static str, _, _)| {
         let prefixes = if OWN.contains(&recipe.0) { prefixes } else { &[String::new()] };
@@ -94,7 +94,7 @@ fn find<'a>(wanted: &Curves, prefix: &str, series: &'a Series) -> Vec<Found<'a>>
     found
 }
 
-/// The curve in a unit of which so many are one of what is shown.
+/// The curve, scaled by `per` from `unit`.
 fn curve((name, channel, values): Found<'_>, unit: &'static str, per: f64) -> Curve {
     let per_si = channel.unit.shown_in(unit).per_si() / per;
     let mut shown = Array::default();
@@ -102,7 +102,7 @@ fn curve((name, channel, values): Found<'_>, unit: &'static str, per: f64) -> Cu
     Curve { name, meaning: format!("{}: {}", channel.name, channel.meaning), values: shown }
 }
 
-/// Leaves the spheres with the largest forces, none that touched nothing, in the list's order.
+/// Keeps the spheres with the largest forces, in the list's order; those without contact are dropped.
 fn keep_greatest(found: &mut Vec<Found<'_>>) {
     let peak = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let mut peaks: Vec<f64> = found.iter().map(|f| peak(f.2)).collect();

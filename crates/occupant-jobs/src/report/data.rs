@@ -18,7 +18,7 @@ use occupant_files::mcap::scene::compartment::{corners_m, square_m};
 use occupant_files::results::Results;
 use occupant_pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
 
-/// All that the page shows.
+/// Data of the page.
 #[derive(Debug, Serialize)]
 pub struct Report {
     /// The program that made it, with its version.
@@ -28,7 +28,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// What the page is of, by the names of its files.
+    /// Subject of the page, by the names of its files.
     pub fn subject(&self) -> String {
         let labels: Vec<&str> = self.runs.iter().map(|run| run.label.as_str()).collect();
         subject(&labels)
@@ -44,7 +44,7 @@ impl Report {
     }
 }
 
-/// What a page of runs of these names is of.
+/// Subject of a page of runs with these names.
 pub fn subject(labels: &[&str]) -> String {
     format!("Report of {}", labels.join(" against "))
 }
@@ -54,11 +54,11 @@ pub fn subject(labels: &[&str]) -> String {
 pub struct Run {
     label: String,
     title: String,
-    /// The run in a line.
+    /// Summary line of the run.
     facts: String,
-    /// What a reader should know before trusting the results.
+    /// Notes to read before using the results.
     notes: Vec<String>,
-    /// What was seen that spoils figures; rows of measures count them from 0.
+    /// Caveats; rows of measures refer to them by index from 0.
     caveats: Vec<String>,
     times: Array,
     segments: Vec<String>,
@@ -69,7 +69,7 @@ pub struct Run {
     motion: Motion,
     plots: Vec<Plot>,
     measures: Vec<Measure>,
-    /// Units of forces and closing speeds: kN and m/s in one that is shown, and its symbol.
+    /// Display unit of forces and closing speeds: its size in kN and m/s, and its symbol.
     force_unit: (f64, String),
     speed_unit: (f64, String),
     first_contacts: Vec<occupant_core::results::summary::ContactBegin>,
@@ -94,8 +94,9 @@ struct SphereData {
     radius: f64,
 }
 
-/// A surface or a side of a solid; corners in axes of the vehicle or, for `space`, in vehicle-space. One without bounds has them about its foot
-/// below the origin. Contacts count surfaces, then solids by their first side; other sides come last and have no name.
+/// A surface or a face of a solid; corners in axes of the vehicle or, for `space`, in vehicle-space. An unbounded one
+/// has corners around the foot of the perpendicular from the origin. Contacts count surfaces, then solids by their
+/// first face; other faces come last and have no name.
 #[derive(Debug, Serialize)]
 struct SurfaceData {
     name: String,
@@ -107,12 +108,12 @@ struct SurfaceData {
 }
 
 impl Run {
-    /// What the page calls a run.
+    /// Name of a run on the page.
     pub(super) fn label_of(results: &Results) -> String {
         file_name(&results.path)
     }
 
-    /// Gathers a run.
+    /// Collects the data of a run.
     ///
     /// # Errors
     /// None for a file that was opened.
@@ -202,7 +203,7 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
     .collect()
 }
 
-/// Road, tyre marks, barriers and the outside of the vehicle, which nothing touches.
+/// Road, tyre marks, barriers and the exterior of the vehicle, without contacts.
 fn scenery(results: &Results) -> Vec<SurfaceData> {
     let drawn = results.model.setup().scenery.iter().filter(|own| is_shown(results, own.frame));
     let plates =
@@ -210,7 +211,7 @@ fn scenery(results: &Results) -> Vec<SurfaceData> {
     plates.map(|(frame, corners)| SurfaceData::plate(frame, SCENERY, "", corners)).collect()
 }
 
-/// The first sides of all solids, then the others.
+/// The first faces of all solids, then the others.
 fn sides(results: &Results) -> Vec<SurfaceData> {
     let (mut first, mut others) = (Vec::new(), Vec::new());
     for solid in &results.model.setup().solids {
@@ -227,7 +228,8 @@ fn sides(results: &Results) -> Vec<SurfaceData> {
 }
 
 impl SurfaceData {
-    /// A name that contacts speak of, of what moves within a vehicle or is a loose body's: nothing to see, like a patch of no size.
+    /// Placeholder for an object referred to by contacts that is not drawn: it moves within a vehicle or belongs to a
+    /// loose body.
     fn hidden(name: &str, material: usize) -> Self {
         let none = [0.0; 3];
         SurfaceData {
@@ -258,10 +260,10 @@ impl SurfaceData {
     }
 }
 
-/// What is drawn and touches nothing has the colour of this material: grey.
+/// Index of the grey material of scenery.
 const SCENERY: usize = 5;
 
-/// Whether the page can show what is fixed to a frame: it knows the vehicle, space, and the ground.
+/// Whether the page can show a frame: the vehicle, space, or the ground.
 fn is_shown(results: &Results, frame: Frame) -> bool {
     match frame {
         Frame::Vehicle | Frame::Space => true,
@@ -273,7 +275,7 @@ fn is_shown(results: &Results, frame: Frame) -> bool {
     }
 }
 
-/// The page's name of a frame, and what turns its vectors: space is Y left, Z up; vehicle-space Y right, Z down.
+/// The page's name of a frame, and the rotation of its vectors: space is Y left, Z up; vehicle-space Y right, Z down.
 fn shown_in(frame: Frame) -> (&'static str, impl Fn([f64; 3]) -> [f64; 3]) {
     let (name, turn) = match frame {
         Frame::Space => ("space", [1.0, -1.0, -1.0]),

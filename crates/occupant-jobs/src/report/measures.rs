@@ -17,7 +17,7 @@ pub struct Measure {
     name: String,
     value: Option<f64>,
     unit: String,
-    /// When; the start of an interval.
+    /// Time, s; the start of an interval.
     time_s: Option<f64>,
     /// Largest value allowed, in the same unit.
     limit: Option<f64>,
@@ -25,11 +25,11 @@ pub struct Measure {
     rule: Option<String>,
     /// `passed` or `failed`.
     verdict: Option<&'static str>,
-    /// Why there is no value, or what to know of it.
+    /// Reason for a missing value, or a remark.
     remark: Option<String>,
-    /// The caveats that touch it, by their places in the list.
+    /// Indices of the caveats that apply to it.
     caveats: Vec<usize>,
-    /// The name that caveats know it by.
+    /// Name used by caveats.
     #[serde(skip)]
     figure: String,
 }
@@ -39,7 +39,7 @@ impl Measure {
         Measure { group, name: name.into(), figure: figure.into(), unit: unit.symbol(), ..Measure::default() }
     }
 
-    /// With the caveats on it.
+    /// The row with its caveats.
     fn judged(self, caveats: &[Caveat]) -> Self {
         let touching = || {
             caveats
@@ -55,7 +55,7 @@ impl Measure {
     }
 }
 
-/// All rows, group by group.
+/// All rows, by group.
 pub fn measures(summary: &Summary, ride: &RideDown, units: Units) -> Vec<Measure> {
     let own = |(prefix, person): (String, Person)| {
         let rows: Vec<_> = person.measures.iter().flat_map(|m| injury_rows(m, units)).collect();
@@ -84,7 +84,7 @@ pub fn measures(summary: &Summary, ride: &RideDown, units: Units) -> Vec<Measure
     rows.into_iter().map(|row| row.judged(&summary.caveats)).collect()
 }
 
-/// A row for each limit of an injury measure, or one without.
+/// A row per limit of an injury measure, or one without.
 fn injury_rows(m: &injury::Measure, units: Units) -> Vec<Measure> {
     let unit = engineering(m.unit, units);
     let first = Measure {
@@ -109,7 +109,7 @@ fn injury_rows(m: &injury::Measure, units: Units) -> Vec<Measure> {
     m.limits.iter().map(row).collect()
 }
 
-/// The unit that engineers read.
+/// Engineering unit of a quantity.
 fn engineering(unit: Unit, units: Units) -> Shown {
     match unit {
         _ if units.system == UnitSystem::InchPound => unit.shown_to_people(true),
@@ -134,7 +134,7 @@ fn load(name: String, figure: String, force_n: Option<f64>, time_s: Option<f64>,
     Measure { value, time_s, ..Measure::new("Loads", name, figure, unit) }
 }
 
-/// Peaks of force elements that were reached at a time: `Belt lap, loop force`, `Joint neck, stop moment`.
+/// Peaks of force elements with a time: `Belt lap, loop force`, `Joint neck, stop moment`.
 fn element_rows(list: &str, table: &Table, units: Units) -> impl Iterator<Item = Measure> {
     let of = table.columns[0].heading;
     let of = of[..1].to_uppercase() + &of[1..];
@@ -185,7 +185,7 @@ fn add_ride_down(rows: &mut Vec<Measure>, ride: &RideDown, units: Units) {
     }
 }
 
-/// The verdict on each who left his compartment, and what left it, where and when.
+/// Verdict for each occupant who left the compartment, with the part, place and time.
 fn add_ejections(rows: &mut Vec<Measure>, summary: &Summary) {
     let group = "Ejection";
     for (name, ejection) in &summary.ejections {

@@ -18,10 +18,10 @@ use occupant_files::results::Results;
 
 pub use data::{Report, subject};
 
-/// So many runs have colours of their own on a page.
+/// Largest number of runs on a page: each has its own colour.
 pub const MOST_RUNS: usize = 4;
 
-/// The page of a run, or of several abreast.
+/// The page of a run, or of several side by side.
 ///
 /// # Errors
 /// None for files that were opened.

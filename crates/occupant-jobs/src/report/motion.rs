@@ -11,18 +11,18 @@ use serde::Serialize;
 use super::array::Array;
 use occupant_files::mcap::scene::compartment::corners_m;
 
-/// Points of a line at every output.
+/// Number of points of a line at every output.
 const LINE_POINTS: usize = 20;
 
-/// What moves: places in m and forces in N, in vehicle axes.
+/// Moving parts: positions in m and forces in N, in vehicle axes.
 #[derive(Debug, Default, Serialize)]
 pub struct Motion {
-    /// Lines of force elements, and those round sections.
+    /// Lines of force elements, and outlines of sections.
     #[serde(rename = "belts")]
     lines: Vec<MovingLine>,
     /// Poses of the segments: x, y, z, quaternion x, y, z, w.
     poses: Array,
-    /// How far the spheres of `ridden` have been carried by parts of the body that yield: x, y, z, axes of their segments.
+    /// Displacements of the spheres of `ridden` by deformable parts: x, y, z, axes of their segments.
     carried: Array,
     /// Those spheres (indices).
     ridden: Vec<usize>,
@@ -31,7 +31,7 @@ pub struct Motion {
     contacts: Contacts,
 }
 
-/// A line of a force element; points x, y, z, `count` of them an output.
+/// A line of a force element; points x, y, z, `count` of them per output.
 #[derive(Debug, Default, Serialize)]
 struct MovingLine {
     name: String,
@@ -40,7 +40,7 @@ struct MovingLine {
     force: Array,
 }
 
-/// Contacts; those of output i are from `start[i]` to `start[i + 1]`. Forces are those on the body.
+/// Contacts; those of output i are from `start[i]` to `start[i + 1]`. Forces act on the body.
 #[derive(Debug, Default, Serialize)]
 struct Contacts {
     start: Array,
@@ -85,7 +85,8 @@ impl Recorder for Motion {
     }
 }
 
-/// Edges of the surfaces and solids that move within a vehicle, and of the outsides of other vehicles, for which the page has no plates.
+/// Edges of surfaces and solids that move within a vehicle, and of the exteriors of other vehicles, for which the page
+/// has no plates.
 fn moving(sample: &Sample<'_>) -> Vec<Section> {
     let setup = sample.model.setup();
     let moves = |frame: Frame| matches!(frame, Frame::Other(i) if setup.frames[i].parent.is_some());
@@ -104,7 +105,7 @@ fn moving(sample: &Sample<'_>) -> Vec<Section> {
     .collect()
 }
 
-/// A section as a line round it.
+/// Outline of a section as a closed line.
 fn closed(section: Section) -> Line {
     let Section { name, corners_m: mut points_m } = section;
     points_m.extend(points_m.first().copied());
@@ -128,8 +129,7 @@ fn add_pose(poses: &mut Array, place: Vector3<f64>, turn: &UnitQuaternion<f64>) 
     poses.float32([place.x, place.y, place.z, turn.i, turn.j, turn.k, turn.w]);
 }
 
-/// As many points for every course: its first, its last, and between them points that are evenly spaced along the part
-/// on the body.
+/// The same number of points for every course: its ends, and points evenly spaced along the part on the body.
 fn evenly(course: &[Point3<f64>]) -> Vec<Point3<f64>> {
     let inner = match course {
         [_, inner @ .., _] if inner.len() > 1 => inner,

@@ -11,7 +11,7 @@ const SCRIPT: &str = include_str!("../../assets/viewer/dist/viewer.js");
 const LICENSES: &str = include_str!("../../assets/viewer/LICENSES.md");
 const STYLE: &str = include_str!("../../assets/viewer/dist/viewer.css");
 
-/// The whole file; `vehicles` is HTML that stands below what the script draws.
+/// The complete file; `vehicles` is HTML below the drawings of the script.
 ///
 /// # Errors
 /// Data that are no JSON, which those of a report always are.
@@ -30,12 +30,12 @@ pub fn fill(report: &Report, vehicles: String) -> Result<String, Failure> {
     Ok(replace(PAGE, &parts))
 }
 
-/// JSON that may stand in a script element: `<` occurs in strings alone, where it can be written by its number.
+/// JSON for a script element: `<`, which occurs in strings only, is escaped.
 fn harmless(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-/// Puts each part where `{{name}}` stands, once and in order: what a part holds is never searched.
+/// Replaces each `{{name}}` by its part, once and in order; parts themselves are not searched.
 fn replace(page: &str, parts: &[(&str, String)]) -> String {
     let mut out = String::with_capacity(page.len() + parts.iter().map(|p| p.1.len()).sum::<usize>());
     let mut rest = page;

@@ -5,7 +5,7 @@ use occupant_core::results::summary::{RunStatus, Summary};
 use crate::base::Units;
 use occupant_files::results::Results;
 
-/// The run in a line: how far it went, whose body it is, and what its integration is worth.
+/// Summary line of the run: end time, body, quality of the integration.
 pub fn facts(results: &Results, summary: &Summary, units: Units) -> String {
     let body = results.run.get("body").map_or("a body", String::as_str);
     let energy = &summary.energy;
@@ -22,7 +22,7 @@ pub fn facts(results: &Results, summary: &Summary, units: Units) -> String {
     )
 }
 
-/// Key and value, in order.
+/// Keys and values, in order.
 pub fn lines(results: &Results, summary: &Summary) -> Vec<[String; 2]> {
     let mut lines = Vec::new();
     let mut put = |key: &str, value: String| lines.push([key.to_owned(), value]);

@@ -18,34 +18,34 @@ use occupant_core::model::Model;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 
-/// Share of the first speed by which a part must have slowed.
+/// Relative loss of speed from which a part counts as decelerated.
 const SLOWED: f64 = 0.02;
-/// A slower vehicle has no ride-down, m/s.
+/// Least speed of a vehicle with ride-down, m/s.
 const LEAST_M_S: f64 = 0.5;
 
-/// A part of a body on its way.
+/// A part of a body during ride-down.
 #[derive(Clone, Debug)]
 struct Part {
     name: String,
     segment: Segment,
-    /// How far the vehicle had gone, and the part in it, when it was slowed, m.
+    /// Travel of the vehicle, and of the part in it, when it began to decelerate, m.
     slowed: Option<[f64; 2]>,
     /// The same at its largest excursion since.
     ahead: [f64; 2],
 }
 
-/// Distances of a part, m.
+/// Stopping distances of a part, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopped {
     /// The part of the body.
     pub part: String,
-    /// Way while it was slowed, m.
+    /// Travel while decelerating, m.
     pub ride_down_m: f64,
-    /// The same as the vehicle sees it, m.
+    /// Travel relative to the vehicle, m.
     pub in_vehicle_m: f64,
 }
 
-/// A sum over time, with its largest value.
+/// A sum over time, with its maximum.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     now: f64,
@@ -59,19 +59,19 @@ impl Sum {
     }
 }
 
-/// Gathers both while a run is told.
+/// Computes ride-down and work during a run.
 #[derive(Debug, Default)]
 pub struct RideDown {
     began: bool,
     parts: Vec<Part>,
-    /// The first direction of travel, and place of the vehicle there.
+    /// Initial direction of travel, and initial position of the vehicle.
     along: Option<Vector3<f64>>,
     start_m: f64,
     speed_m_s: f64,
     kinetic_j: f64,
-    /// By surface: what it took.
+    /// By surface: absorbed work.
     surfaces: BTreeMap<usize, Sum>,
-    /// By sphere and surface at the last output: normal force, depth, power of friction.
+    /// By sphere and surface at the last output: normal force, depth, friction power.
     touching: BTreeMap<(usize, usize), [f64; 3]>,
     /// By belt or strap.
     belts: Vec<(String, Sum, [f64; 2])>,
@@ -81,7 +81,7 @@ pub struct RideDown {
 }
 
 impl RideDown {
-    /// The parts that were slowed and came to the vehicle's speed.
+    /// Parts that were decelerated to the vehicle's speed.
     pub fn stopped(&self) -> Vec<Stopped> {
         let of = |part: &Part| {
             let [vehicle_m, own_m] = part.slowed?;
@@ -94,12 +94,12 @@ impl RideDown {
         self.parts.iter().filter_map(of).collect()
     }
 
-    /// The share of the kinetic energy at the start that went into the moving vehicle; none if it hardly moved.
+    /// Share of the initial kinetic energy absorbed by the moving vehicle; none if it hardly moved.
     pub fn share(&self) -> Option<f64> {
         (self.speed_m_s > LEAST_M_S && self.kinetic_j > 0.0).then(|| -self.vehicle_work_j / self.kinetic_j)
     }
 
-    /// What each belt and each surface took up at most, J: those that took anything, the largest first.
+    /// Largest work absorbed by each belt and surface, J, if any; the largest first.
     pub fn works_j(&self) -> Vec<(String, f64)> {
         let belts = self.belts.iter().map(|(name, sum, _)| (format!("belt {name}"), sum.greatest));
         let name = |surface: &usize| self.names.get(*surface).cloned().unwrap_or_default();

@@ -6,8 +6,8 @@ use crate::risk::{self, OWN_STYLE};
 use occupant_files::results::Results;
 use occupant_pictures::html::Html;
 
-/// HTML that stands below what the script draws; nothing if no vehicle is ever accelerated or turned. A motion that several runs share
-/// stands there once.
+/// HTML below the drawings of the script; empty if no vehicle accelerates or rotates. A motion common to several runs
+/// is shown once.
 pub(super) fn vehicles(runs: &[Results], units: Units) -> String {
     let mut reports: Vec<risk::Report> = Vec::new();
     for run in runs {

@@ -9,11 +9,12 @@ use occupant_units::unit::Unit;
 
 use super::{Figures, Report};
 
-/// The path of the last run, its first and last time, and what was measured: most runs of a study share a path.
+/// Path of the last run, its first and last time, and its measures: most runs of a study share a path.
 type Last = Option<(VehiclePath, [f64; 2], Vec<Figure>)>;
 static LAST: Mutex<Last> = Mutex::new(None);
 
-/// `vehicle.oiv_x`, `vehicle.asi_2010` and so on, of a path that is a table, a record or a drive, and figures of what was driven; none of others.
+/// `vehicle.oiv_x`, `vehicle.asi_2010` and so on, for a path that is a table, a record or a drive, and figures of the
+/// drive; none for others.
 pub fn columns(setup: &Setup) -> Vec<Figure> {
     let facts = setup.facts.iter().map(|own| Figure { name: own.name.clone(), unit: own.unit, value: Some(own.value) });
     of_path(setup).into_iter().chain(facts).collect()
@@ -36,7 +37,7 @@ fn of_path(setup: &Setup) -> Vec<Figure> {
     figures
 }
 
-/// As `occupant risk` does, with its filter and interval. A measure that is left out has no value.
+/// Measures as from `occupant risk`, with its filter and interval. A missing measure has no value.
 fn measured(setup: &Setup) -> Vec<Figure> {
     let report = Report::of_run("", setup, None);
     let figures = report.map(|report| Figures::of(&report).figures).unwrap_or_default();
@@ -55,7 +56,7 @@ fn measured(setup: &Setup) -> Vec<Figure> {
     COLUMNS.into_iter().map(column).collect()
 }
 
-/// Keys of the measures without their units, and these.
+/// Keys of the measures without their units, and their units.
 const COLUMNS: [(&str, Unit); 15] = [
     ("oiv_x", Unit::MetrePerSecond),
     ("oiv_y", Unit::MetrePerSecond),

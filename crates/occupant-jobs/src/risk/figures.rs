@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::Report;
 
-/// A unit of the table, and the decimals worth printing in it.
+/// A unit of the table, and the number of printed decimals.
 pub type Unit = (Shown, usize);
 
 /// m/s.
@@ -42,17 +42,17 @@ pub fn g() -> Unit {
     (MetrePerSecondSquared.shown_in("g"), 2)
 }
 
-/// None.
+/// A plain number.
 pub fn plain() -> Unit {
     (One.shown(), 2)
 }
 
-/// Of averages in reports in SI and in those in the US.
+/// Units of average accelerations in SI and US reports.
 fn accelerations() -> [Unit; 2] {
     [g(), (MetrePerSecondSquared.shown(), 1)]
 }
 
-/// A measure of the table; in JSON its value, when, and the remark if there is one.
+/// A measure of the table; in JSON its value, time, and remark.
 #[derive(Clone, Debug, Serialize)]
 pub struct Figure {
     /// Name in the table.
@@ -63,30 +63,30 @@ pub struct Figure {
     pub key: String,
     /// Value, SI, with its sign.
     pub value: f64,
-    /// Its units: that of reports in SI, that of reports in the US.
+    /// Its units in SI and US reports.
     #[serde(skip)]
     pub units: [Unit; 2],
-    /// When, s of the record: an instant, or the ends of a window.
+    /// Time, s of the record: an instant, or the ends of a window.
     pub when_s: Vec<f64>,
-    /// What else there is to say.
+    /// Remark.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub remark: &'static str,
 }
 
-/// What was left out.
+/// A missing measure.
 #[derive(Clone, Debug, Serialize)]
 pub struct LeftOut {
     /// The measure.
     pub measure: String,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
-/// All measures, and those left out.
+/// All measures, and the missing ones.
 pub struct Figures {
     /// The figures.
     pub figures: Vec<Figure>,
-    /// Measures that were left out.
+    /// Missing measures.
     pub left_out: Vec<LeftOut>,
     start_s: f64,
 }
@@ -134,7 +134,7 @@ impl Figures {
         &mut self.figures[last]
     }
 
-    /// The measure, or a line that says why it was left out.
+    /// The measure, or a line with the reason why it is missing.
     fn measured<'a, T>(&mut self, name: &str, measure: &'a Result<T, impl ToString>) -> Option<&'a T> {
         let left_out = |reason: &_| LeftOut { measure: name.to_owned(), reason: ToString::to_string(reason) };
         self.left_out.extend(measure.as_ref().err().map(left_out));
@@ -152,7 +152,7 @@ impl Figures {
         self.add(name, key, average.value, accelerations(), &[average.start_s, average.end_s]);
     }
 
-    /// An average after the impact of the occupant.
+    /// An average after the occupant's impact.
     fn ridedown(&mut self, name: &str, key: &str, average: Option<WindowExtreme>, impact_s: Option<f64>) {
         let average = average.ok_or(match impact_s {
             Some(_) => "the record ends less than 10 ms after the occupant impact",

@@ -9,12 +9,12 @@ use rayon::prelude::*;
 
 use super::Figures;
 
-/// Records with other errors.
+/// Number of records with random errors.
 const MEMBERS: u64 = 400;
 /// Ends of the interval.
 const ENDS: [f64; 2] = [0.025, 0.975];
 
-/// The interval that holds 95 % of the values of each measure.
+/// 95 % intervals of each measure.
 #[derive(Clone, Debug)]
 pub struct Intervals {
     errors: SensorErrors,
@@ -22,7 +22,7 @@ pub struct Intervals {
 }
 
 impl Intervals {
-    /// By Monte Carlo, the same for the same record whatever the number of threads.
+    /// Intervals by Monte Carlo, the same for any number of threads.
     pub fn of(signals: &VehicleSignals, flight: &Flight, errors: SensorErrors) -> Self {
         let member = |member: u64| -> Vec<(String, f64)> {
             let signals = errors.member(signals, member);
@@ -46,7 +46,7 @@ impl Intervals {
         self.ends.get(key).copied()
     }
 
-    /// How they were found.
+    /// Description of the method.
     pub fn words(&self) -> String {
         let SensorErrors { gain, offset_m_s2, rate_rad_s, angle_rad, place_m } = self.errors;
         let bounds = [

@@ -27,32 +27,32 @@ pub use subject::{PATH_INTERVAL_S, Subject, vehicles};
 pub use table::text;
 use table::{shown, unit_of};
 
-/// Everything that is reported.
+/// Content of a report.
 #[derive(Debug)]
 pub struct Report {
-    /// What was measured, and where it came from.
+    /// The motion and its source.
     pub subject: Subject,
-    /// How it was prepared.
+    /// Preparation of the record.
     pub preparation: Preparation,
-    /// Where the occupant starts and how far it may fly.
+    /// Flail distances and initial head position.
     pub flight: Flight,
-    /// What was measured on.
+    /// Prepared signals.
     pub signals: VehicleSignals,
     /// The measures.
     pub risk: VehicleRisk,
-    /// The measures against limits.
+    /// Comparison with limits.
     pub judgements: Vec<Judgement>,
-    /// What the errors of the sensors make of the measures, if they were told.
+    /// Intervals due to sensor errors, if given.
     pub intervals: Option<Intervals>,
-    /// What to know of the record.
+    /// Notes on the record.
     pub notes: Vec<String>,
 }
 
-/// An index that still has so much of its maximum at the end of the record may go beyond it.
+/// An index still above this fraction of its maximum at the record's end may rise further.
 const LEFT_AT_END: f64 = 0.2;
 
 impl Report {
-    /// Measures, and judges by `rules`; by all of them if none is named.
+    /// Computes the measures and compares them with `rules`, or with all rules if none is given.
     pub fn new(
         subject: Subject,
         preparation: Preparation,
@@ -73,12 +73,12 @@ impl Report {
         Report { subject, preparation, flight, signals, risk, judgements, intervals: None, notes }
     }
 
-    /// Of a vehicle of a run by name, as `occupant risk` makes it of a run by default; none of one that cannot be sampled.
+    /// Report on a vehicle of a run by name, with the defaults of `occupant risk`; none if its path cannot be sampled.
     pub fn of_run(name: &str, setup: &Setup, vehicle: Option<&str>) -> Option<Self> {
         Report::of_path(Subject::of_run(name, setup, vehicle, PATH_INTERVAL_S).ok()??)
     }
 
-    /// Of a path that was sampled, prepared and judged as `occupant risk` does by default; none of one that cannot be prepared.
+    /// Report on a sampled path, with the defaults of `occupant risk`; none if it cannot be prepared.
     pub fn of_path(subject: Subject) -> Option<Self> {
         let filter = ChannelClass::from_number(180).map(|class| (class, CfcFamily::Iso6487));
         let preparation = Preparation { filter, ..Preparation::default() };
@@ -87,7 +87,7 @@ impl Report {
         Some(Report::new(subject, preparation, signals, Flight::default(), &[]))
     }
 
-    /// Names of the rules that are broken, each once.
+    /// Names of the broken rules, each once.
     pub fn broken(&self) -> Vec<&'static str> {
         let mut rules: Vec<_> =
             self.judgements.iter().filter(|j| j.breaks_the_rule()).map(|j| j.limit.rule.name()).collect();
@@ -95,7 +95,7 @@ impl Report {
         rules
     }
 
-    /// The class or level of each rule that has any: the rule, the class, and why.
+    /// Class or level for each rule that has any: rule, class, reason.
     pub fn classes(&self, units: Option<UnitSystem>) -> Vec<(&'static str, Option<&'static str>, String)> {
         let mut rules: Vec<Rule> = self.judgements.iter().map(|judgement| judgement.limit.rule).collect();
         rules.dedup();
@@ -121,7 +121,7 @@ impl Report {
         rules.into_iter().filter_map(of).collect()
     }
 
-    /// With what errors of the sensors make of the measures.
+    /// Adds intervals due to sensor errors.
     pub fn with_errors(mut self, errors: SensorErrors) -> Self {
         if !errors.is_none() {
             self.intervals = Some(Intervals::of(&self.signals, &self.flight, errors));

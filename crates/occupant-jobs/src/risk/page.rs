@@ -10,14 +10,14 @@ use occupant_pictures::html::{Cell, Html, about as about_page};
 use occupant_pictures::plot::inline;
 
 const STYLE: &str = include_str!("../../assets/viewer/dist/viewer.css");
-/// What stands in [`sections`] beside the style of the page of a run.
+/// Style of [`sections`] in addition to that of a run's page.
 pub const OWN_STYLE: &str = include_str!("../../assets/study/study.css");
-/// On paper everything is shown, black on white, and no picture is cut.
+/// Print style: everything unfolded, black on white, no clipped figures.
 const PRINT: &str = "@media print {\n  body { background: #ffffff; color: #000000; }\n  figure, tr { break-inside: avoid; }\n  .scroll { overflow: visible; }\n}\n";
 /// Width and height of a plot.
 const PLOT: [f64; 2] = [430.0, 240.0];
 
-/// The whole file; `origin` says where the numbers come from, in pairs of words.
+/// The complete file; `origin` lists the sources of the numbers.
 pub fn page(report: &Report, units: Option<UnitSystem>, origin: &[(&str, String)]) -> String {
     let title = format!("Occupant risk of {}", report.subject.name);
     let mut html = Html::default();
@@ -41,7 +41,7 @@ pub fn page(report: &Report, units: Option<UnitSystem>, origin: &[(&str, String)
     html.finish()
 }
 
-/// What was measured, against what limits, with the histories: all of the page but its head and its origin.
+/// Measures, limits and histories: the page without head and origin.
 pub fn sections(report: &Report, units: Option<UnitSystem>) -> String {
     let mut html = Html::default();
     report.notes.iter().for_each(|note| html.text("p class=\"note\"", note));

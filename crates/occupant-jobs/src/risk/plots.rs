@@ -7,7 +7,7 @@ use occupant_study::risk::{AXES, VehicleSignals};
 use super::Report;
 use occupant_pictures::plot::{Axis, Curve, Figure, Style};
 
-/// Points of a curve at most; of more, the least and largest of each part are drawn.
+/// Largest number of points of a curve; beyond it, the least and largest of each part are drawn.
 const POINTS: usize = 1200;
 
 /// All plots that the channels allow.
@@ -42,7 +42,7 @@ fn acceleration(signals: &VehicleSignals, axis: usize) -> Option<Figure> {
     figure(signals, &title, "acceleration", "g", curves.into_iter().flatten())
 }
 
-/// One curve for each axis.
+/// One curve per axis.
 fn several(
     signals: &VehicleSignals,
     title: &str,
@@ -63,7 +63,7 @@ fn severity(signals: &VehicleSignals) -> Option<Figure> {
     figure(signals, "Acceleration severity index", "ASI", "", curves.into_iter().flatten())
 }
 
-/// A plot of curves, each with its name, how much later than the record it begins, s, and its values; none without any.
+/// A plot of curves, each with name, delay relative to the record, s, and values; none without curves.
 fn figure(
     signals: &VehicleSignals,
     title: &str,
@@ -86,7 +86,7 @@ fn figure(
     })
 }
 
-/// Which samples are drawn: all, or the least and the largest of each part.
+/// Indices of the samples to draw: all, or the least and largest of each part.
 fn thinned(values: &[f64]) -> Vec<usize> {
     if values.len() <= POINTS {
         return (0..values.len()).collect();

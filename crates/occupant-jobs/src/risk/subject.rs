@@ -4,26 +4,26 @@ use occupant_core::model::setup::{OtherFrame, Setup};
 use occupant_core::vehicle::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
 use occupant_study::risk::sampled;
 
-/// Sample interval of paths, s, where none is asked for.
+/// Default sample interval of paths, s.
 pub const PATH_INTERVAL_S: f64 = 1e-4;
 
-/// Where the motion comes from.
+/// Source of the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// Sensors.
     Recorded,
-    /// The path of a scenario, or that of a table of places or velocity changes, sampled.
+    /// The path of a scenario, or of a table of positions or velocity changes, sampled.
     Path,
-    /// The path of a scenario that has straight lines between stations, sampled.
+    /// The path of a scenario, linear between stations, sampled.
     PathOfStraightLines,
 }
 
-/// Whose risk it is.
+/// A vehicle whose motion is assessed.
 #[derive(Debug)]
 pub struct Subject {
-    /// Its name: the file's.
+    /// Its name: the file name.
     pub name: String,
-    /// Where it comes from.
+    /// Source of its motion.
     pub source: Source,
     /// Accelerations and rates.
     pub record: AccelerationRecord,
@@ -37,7 +37,8 @@ impl Subject {
         Subject { name: name.to_owned(), source: Source::Recorded, record, initial: Attitude::default() }
     }
 
-    /// The path of a scenario's vehicle over its run, of the first or of one of the others by name; none if it cannot be sampled at this interval.
+    /// The path of a scenario's first vehicle over its run, or of another by name; none if it cannot be sampled at this
+    /// interval.
     ///
     /// # Errors
     /// The names that there are, for a name that is none of them.
@@ -72,7 +73,7 @@ impl Subject {
     }
 }
 
-/// The vehicles of a setup, the first of them first.
+/// Vehicles of a setup, starting with the first.
 pub fn vehicles(setup: &Setup) -> Vec<&str> {
     [FIRST].into_iter().chain(others(setup).map(|frame| frame.name.as_str())).collect()
 }
@@ -81,6 +82,6 @@ fn others(setup: &Setup) -> impl Iterator<Item = &OtherFrame> + Clone {
     setup.frames.iter().filter(|frame| frame.parent.is_none() && frame.name != GROUND)
 }
 
-/// The frame of the ground, and the name of the first vehicle.
+/// Name of the ground frame.
 const GROUND: &str = "ground";
 const FIRST: &str = "vehicle";

@@ -10,7 +10,7 @@ use super::subject::Source;
 use crate::base::text_table::{Align, NONE, Table, facts, number};
 use crate::files::history::family_name;
 
-/// The report; in one system of units, or in SI beside those of reports in the US.
+/// The report, in one system of units, or in SI with US units beside.
 pub fn text(report: &Report, units: Option<UnitSystem>) -> String {
     let figures = Figures::of(report);
     let head = facts(&head(report));
@@ -27,7 +27,7 @@ pub fn text(report: &Report, units: Option<UnitSystem>) -> String {
     parts.join("\n")
 }
 
-/// What was measured, and what was done with it.
+/// Source and preparation of the motion.
 pub(super) fn head(report: &Report) -> Vec<(&'static str, String)> {
     let (signals, preparation) = (&report.signals, &report.preparation);
     let [x, y, z] = preparation.offset_m;
@@ -95,7 +95,7 @@ pub fn filter_name(preparation: &Preparation) -> Option<String> {
     Some(format!("CFC {:.0}, {}", class.hertz(), family_name(family)))
 }
 
-/// Where the motion comes from, as text.
+/// Source of the motion, as text.
 pub fn source_name(report: &Report) -> &'static str {
     match report.subject.source {
         Source::Recorded => "recorded",
@@ -106,7 +106,7 @@ pub fn source_name(report: &Report) -> &'static str {
     }
 }
 
-/// The units in which a figure is told.
+/// Display units of a figure.
 pub(super) fn told(figure: &Figure, units: Option<UnitSystem>) -> Vec<Unit> {
     let [si, us] = figure.units;
     match units {
@@ -119,7 +119,7 @@ pub(super) fn told(figure: &Figure, units: Option<UnitSystem>) -> Vec<Unit> {
     }
 }
 
-/// When it was, and what else there is to say.
+/// Time and remark.
 pub(super) fn about(figure: &Figure) -> [String; 2] {
     let times: Vec<String> = figure.when_s.iter().map(|t| format!("{t:.4}")).collect();
     [times.join(" – "), figure.remark.to_owned()]
@@ -182,12 +182,12 @@ fn limits(judgements: &[Judgement], units: Option<UnitSystem>) -> String {
             verdict_name(judgement).to_owned(),
         ]);
     }
-    let notes = read_in.iter().zip(MARKS).map(|(words, mark)| format!("{mark} limit read in {words}\n"));
+    let notes = read_in.iter().zip(MARKS).map(|(words, mark)| format!("{mark} limit from {words}\n"));
     let sources = documents(judgements).into_iter().map(|(rules, document)| format!("{rules}: {document}\n"));
     table.text() + &notes.chain(sources).collect::<String>()
 }
 
-/// The document of each rule, rules of the same together.
+/// Document of each rule, grouped.
 pub(super) fn documents(judgements: &[Judgement]) -> Vec<(String, &'static str)> {
     let mut all: Vec<(Vec<&str>, &str)> = Vec::new();
     for rule in judgements.iter().map(|judgement| judgement.limit.rule) {
@@ -200,7 +200,7 @@ pub(super) fn documents(judgements: &[Judgement]) -> Vec<(String, &'static str)>
     all.into_iter().map(|(names, document)| (names.join(", "), document)).collect()
 }
 
-/// The class or level of each rule that has any.
+/// Class or level for each rule that has any.
 fn classes(report: &Report, units: Option<UnitSystem>) -> Option<String> {
     let mut table = Table::new(&[(Align::Left, &["rule", "class or level", "by"])]);
     let classes = report.classes(units);
@@ -211,7 +211,7 @@ fn classes(report: &Report, units: Option<UnitSystem>) -> Option<String> {
 /// Marks of footnotes.
 const MARKS: [&str; 2] = ["¹", "²"];
 
-/// The mark of a footnote, which is among those below from then on.
+/// Footnote mark for a text, which is added to the list.
 fn mark<'a>(words: &'a str, known: &mut Vec<&'a str>) -> &'static str {
     let at = known.iter().position(|own| *own == words).unwrap_or_else(|| {
         known.push(words);
@@ -238,7 +238,7 @@ pub(super) fn unit_of(quantity: Quantity, units: Option<UnitSystem>) -> Unit {
 pub fn basis_name(basis: Basis) -> &'static str {
     match basis {
         Basis::SecondarySource => "a source that quotes the rule",
-        Basis::CommonKnowledge => "general knowledge",
+        Basis::CommonKnowledge => "memory, not from the rule",
     }
 }
 

@@ -3,10 +3,10 @@
 use occupant_scenario::Scenario;
 use serde_json::Value;
 
-/// Keys that say when a run ends, or are words alone.
+/// Keys that do not affect the states of a run: end time and descriptions.
 const FREE: [&str; 4] = ["time.end", "title", "notes", "provenance"];
 
-/// A line for each value that differs, `key: there → here`; the end of the run and words about it do not count.
+/// A line for each value that differs, `key: there → here`; end time and descriptions are ignored.
 ///
 /// # Errors
 /// A scenario that JSON cannot hold.

@@ -14,31 +14,31 @@ use crate::base::text_table::{facts, number};
 use crate::base::{Failure, Interrupt, Show, Units};
 use crate::files::scenario::Opened;
 
-/// A figure that differs by more than this part of itself is named in the table.
+/// Relative difference above which a figure is listed.
 const NAMED: f64 = 1e-3;
-/// One that differs by more is not determined.
+/// Relative difference above which a figure is undetermined.
 const UNDETERMINED: f64 = 0.05;
-/// Differences below these are none, by SI unit; of others, plain numbers among them, those below 1e-3.
+/// Differences that count as zero, by SI unit; 1e-3 for others, including plain numbers.
 const LEAST: [(&str, f64); 4] = [("m", 1e-4), ("s", 1e-4), ("N", 1.0), ("m/s^2", 0.1)];
-/// So many are, the worst first.
+/// Largest number of figures listed, the worst first.
 const MOST_NAMED: usize = 5;
-/// A head whose path differs by so much, m, says that the motion makes much of little.
+/// Difference of head paths, m, above which the motion counts as chaotic.
 const CHAOTIC_M: f64 = 5e-3;
 
-/// Where the c.g. of the head is, or of the last segment of a part without one, m, in vehicle axes.
+/// Position of the head's c.g., or of the last segment without a head, m, in vehicle axes.
 pub fn head_m(sample: &Sample<'_>) -> Point3<f64> {
     let tree = sample.model.body().tree;
     sample.cg_m(tree.landmarks().head.unwrap_or_else(|| tree.segment(tree.segments().len() - 1)))
 }
 
-/// How far a run is from one with a finer integration.
+/// Differences between a run and one with finer integration.
 #[derive(Debug, Serialize)]
 pub struct ErrorEstimate {
-    /// The finer integration in words.
+    /// Description of the finer integration.
     against: &'static str,
-    /// What it cost.
+    /// Its evaluations.
     evaluations: u64,
-    /// The largest distance of the head's c.g. at any output, m.
+    /// Largest distance between the head's c.g. positions at any output, m.
     head_path_m: f64,
     /// Every figure of the summary that both runs have.
     figures: Vec<FigureError>,
@@ -48,27 +48,28 @@ pub struct ErrorEstimate {
 struct FigureError {
     name: String,
     unit: &'static str,
-    /// In the run.
+    /// Value in the run.
     value: f64,
-    /// The run less the finer one.
+    /// Value in the run minus that in the finer one.
     difference: f64,
 }
 
 impl FigureError {
-    /// Whether the difference is more than rounding makes of what is nothing, such as a way to the side in a plane motion.
+    /// Whether the difference exceeds rounding errors around zero, such as lateral motion in a planar case.
     fn matters(&self) -> bool {
         let least = LEAST.iter().find(|(unit, _)| *unit == self.unit).map_or(1e-3, |(_, least)| *least);
         self.difference.abs() > least
     }
 
-    /// Of the greater of both values; 0 of two zeros.
+    /// Difference relative to the larger value; 0 for two zeros.
     fn relative(&self) -> f64 {
         let greatest = self.value.abs().max((self.value - self.difference).abs());
         if greatest > 0.0 { self.difference.abs() / greatest } else { 0.0 }
     }
 }
 
-/// Runs the scenario of `summary`, with the head along `path`, once more, with a quarter of the step or a tenth of the tolerances.
+/// Repeats the scenario of `summary`, with the head along `path`, with a quarter of the step or a tenth of the
+/// tolerances.
 ///
 /// # Errors
 /// The finer run does not complete.
@@ -133,7 +134,7 @@ fn differences(run: Vec<Figure>, finer: Vec<Figure>) -> Vec<FigureError> {
 }
 
 impl ErrorEstimate {
-    /// What to know of the figures that the finer run has otherwise, and of the measures of their names.
+    /// Caveat on figures that differ in the finer run, and on the measures of the same names.
     pub fn caveat(&self, summary: &Summary) -> Option<Caveat> {
         let off = self.figures.iter().filter(|figure| figure.relative() > UNDETERMINED && figure.matters());
         let changed: Vec<(String, f64)> = off.map(|figure| (figure.name.clone(), figure.relative())).collect();
@@ -147,7 +148,7 @@ impl ErrorEstimate {
         Caveat::undetermined(self.against, &changed, names)
     }
 
-    /// A fact for the table of the run.
+    /// Row for the table of the run.
     pub fn text(&self, units: Units) -> String {
         let mut off: Vec<&FigureError> = self.figures.iter().filter(|f| f.relative() > NAMED).collect();
         off.sort_by(|a, b| b.relative().total_cmp(&a.relative()));

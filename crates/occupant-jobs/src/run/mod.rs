@@ -25,19 +25,19 @@ use estimate::head_m;
 use recording::{Recording, Written};
 use resume::{Resumption, WithEarlier};
 
-/// A run that was computed, and its file closed.
+/// A computed run with its closed file.
 pub struct Simulated {
     /// Whether it reached its end.
     pub completed: bool,
     /// Its summary.
     pub summary: Summary,
-    /// Where friction was unstable.
+    /// Unstable friction.
     pub friction: FrictionWatch,
     /// Its histories.
     pub histories: Series,
-    /// Where the head was at each output.
+    /// Position of the head at each output.
     pub head: Vec<Point3<f64>>,
-    /// What was written.
+    /// The written file.
     pub written: Written,
 }
 
@@ -50,8 +50,8 @@ impl Recorder for FirstOutput {
     }
 }
 
-/// Computes a run, from its start or from where another ended, with the histories of `channels`;
-/// `watcher` sees each output first, and may stop the run.
+/// Computes a run, from its start or from the end of another, with the histories of `channels`; `watcher` sees each
+/// output first, and may stop the run.
 ///
 /// # Errors
 /// A file that cannot be written; a checkpoint of another scenario.

@@ -23,10 +23,10 @@ struct Open {
     recorder: McapRecorder<PartialFile>,
 }
 
-/// What became of the file.
+/// Outcome of writing the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Written {
-    /// None was asked for.
+    /// None was requested.
     Nothing,
     /// The whole run, in this file.
     Complete(PathBuf),
@@ -43,7 +43,7 @@ impl Written {
         }
     }
 
-    /// Where the run is, for messages of what failed after it.
+    /// Position of the outputs, for messages of later failures.
     pub fn left(&self) -> String {
         match self.name() {
             Some(name) => format!("the run itself is in {name}"),
@@ -92,12 +92,12 @@ impl Recording {
         Ok(Recording(Some(Open { partial, recorder })))
     }
 
-    /// Where the outputs of a run that broke off are.
+    /// Position of the outputs of an aborted run.
     pub fn left(&self) -> String {
         self.0.iter().map(|open| there("what was written before", &open.partial)).collect()
     }
 
-    /// Closes the file; it gets its name only if the run is complete.
+    /// Closes the file, and renames it if the run is complete.
     ///
     /// # Errors
     /// An error of the file system.
@@ -110,7 +110,7 @@ impl Recording {
         closed.map_err(|e| Failure::broke_off(format!("{e}{}", there("the run", &open.partial))))
     }
 
-    /// Lets the recorder of the file, if there is one, do its part.
+    /// Calls the file's recorder, if there is one.
     fn let_it<T>(
         &mut self,
         nothing: T,
@@ -135,12 +135,12 @@ impl Recorder for Recording {
     }
 }
 
-/// Where something is, if it is still there.
+/// Position of something, if it still exists.
 fn there(what: &str, partial: &Path) -> String {
     if partial.exists() { format!("\n = done: {what} is in {}", partial.display()) } else { String::new() }
 }
 
-/// Why a file could not be written, in the operating system's words.
+/// Reason why a file could not be written, from the operating system.
 fn reason(partial: &Path, error: &(dyn Error + 'static)) -> String {
     let mut root = error;
     while let Some(source) = root.source() {
@@ -153,7 +153,7 @@ fn unwritten(partial: &Path, error: &(dyn Error + 'static)) -> Failure {
     Failure::broke_off(reason(partial, error))
 }
 
-/// What the file says of where it comes from. Nothing in it depends on the day or the machine.
+/// Metadata about the origin of the run, independent of date and machine.
 fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
     let resolved = opened.loaded.explicit().to_toml();
     let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written: {e}")))?;

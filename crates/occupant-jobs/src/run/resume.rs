@@ -19,20 +19,20 @@ use crate::base::{Failure, file_name, input_file, note, program, say, sha256};
 use crate::files::scenario::{self, Opened};
 use occupant_files::mcap::StoredRun;
 
-/// Differences of scenarios that a message shows; more are counted.
+/// Largest number of differing keys in a message.
 const SHOWN: usize = 8;
 
-/// What a run resumes.
+/// A run to continue.
 pub struct Resumption {
     /// The output at which it starts.
     pub checkpoint: Checkpoint,
-    /// The outputs of the file before that.
+    /// The earlier outputs of the file.
     pub earlier: Vec<Checkpoint>,
     file: PathBuf,
     sha256: String,
 }
 
-/// What `--json` says of it.
+/// The JSON description.
 #[derive(Serialize)]
 pub struct Resumed {
     file: String,
@@ -41,7 +41,7 @@ pub struct Resumed {
 }
 
 impl Resumption {
-    /// Reads `file` and finds the last checkpoint that a run of the scenario would pass.
+    /// Reads `file` and finds the last checkpoint shared with a run of the scenario.
     ///
     /// # Errors
     /// A file that cannot be read or holds no checkpoint; another scenario; an end that lies not after the file's.
@@ -69,7 +69,7 @@ impl Resumption {
         Ok(Resumption { checkpoint, earlier, file: file.to_owned(), sha256 })
     }
 
-    /// What the new file says of it.
+    /// Metadata for the new file.
     pub fn notes(&self) -> BTreeMap<String, String> {
         let checkpoint = &self.checkpoint;
         [
@@ -82,7 +82,7 @@ impl Resumption {
         .into()
     }
 
-    /// Says where the run is resumed, and what the summary leaves out.
+    /// Reports where the run continues, and what the summary leaves out.
     pub fn announce(&self) {
         let (file, at_s) = (self.file.display(), self.checkpoint.time_s);
         say(&format!("resumed {file} at t = {} s", number(at_s)));
@@ -95,12 +95,12 @@ impl Resumption {
         }
     }
 
-    /// For `--json`.
+    /// The JSON description.
     pub fn describe(&self) -> Resumed {
         Resumed { file: self.file.display().to_string(), at_s: self.checkpoint.time_s, output: self.checkpoint.index }
     }
 
-    /// Refuses to write over what is being resumed.
+    /// Refuses to overwrite the file being continued.
     ///
     /// # Errors
     /// `target`, or the name that it has until it is complete, is the file.
@@ -117,8 +117,8 @@ impl Resumption {
     }
 }
 
-/// The last checkpoint that fits, and those before it. A run that ended between two output times ended at no output of a
-/// longer run: then it is the one before.
+/// The last matching checkpoint, and those before it. A run that ended between two output times ended at no output of a
+/// longer run: then the one before is used.
 fn last_fitting(
     file: &Path,
     mut checkpoints: Vec<Checkpoint>,
@@ -139,7 +139,7 @@ fn last_fitting(
     })
 }
 
-/// Refuses a file of another scenario; warns of another program.
+/// Refuses a file of another scenario; warns about another program version.
 fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(), Failure> {
     let name = file.display();
     let (theirs, model, _) = scenario::stored(file, stored)?;
@@ -180,11 +180,11 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
     Ok(())
 }
 
-/// A recorder that sees the outputs of the earlier run first.
+/// A recorder that first receives the outputs of the earlier run.
 pub struct WithEarlier<R> {
-    /// Outputs that there are already.
+    /// The earlier outputs.
     pub earlier: Vec<Checkpoint>,
-    /// Who records the rest.
+    /// Recorder of the new outputs.
     pub recorder: R,
 }
 

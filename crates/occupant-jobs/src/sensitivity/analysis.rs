@@ -20,11 +20,11 @@ use crate::base::{Failure, Show};
 use crate::files::history::choose;
 use crate::files::scenario::counted;
 
-/// What is asked for, each name known.
+/// A request with resolved names.
 pub struct Asked<'a> {
     /// The parameters.
     pub parameters: Vec<Parameter<'a>>,
-    /// What is asked for.
+    /// Figures and channels to differentiate.
     pub request: Request,
     /// Units of the figures.
     pub units: Vec<&'static str>,
@@ -36,7 +36,7 @@ pub struct Analysis {
     pub values: Values,
     /// The run with its derivatives.
     pub trajectory: Trajectory,
-    /// What the models are built of, by parameter.
+    /// Derivatives of the models, by parameter.
     pub built: Vec<Built>,
     /// By parameter.
     pub derivatives: Vec<Derivatives>,
@@ -44,11 +44,11 @@ pub struct Analysis {
     pub neighbours: Neighbours,
     /// By parameter, then by figure.
     pub comparisons: Vec<Vec<Comparison>>,
-    /// Time of a plain run and of the run in duals beside it, s.
+    /// Wall time of a plain run and of the dual run, s.
     pub cost_s: [f64; 2],
 }
 
-/// Words of the command line.
+/// Arguments of the command line.
 pub struct Words<'a> {
     /// Names of parameters.
     pub to: &'a [String],
@@ -58,7 +58,7 @@ pub struct Words<'a> {
     pub channels: &'a [String],
 }
 
-/// Finds what the words ask for.
+/// Resolves the arguments.
 ///
 /// # Errors
 /// Everything that is not there, at once.
@@ -90,7 +90,7 @@ pub fn ask<'a>(
     Ok(Asked { parameters, units: names.iter().map(unit).collect(), request: Request { figures: names, channels } })
 }
 
-/// What the items of lists name; what is wrong with an item goes to `wrong`.
+/// Resolves the items of lists; errors go to `wrong`.
 fn gather<T>(lists: &[String], wrong: &mut Vec<String>, named: impl Fn(&str) -> Result<Vec<T>, String>) -> Vec<T> {
     let mut all = Vec::new();
     for item in split(lists) {
@@ -102,14 +102,14 @@ fn gather<T>(lists: &[String], wrong: &mut Vec<String>, named: impl Fn(&str) -> 
     all
 }
 
-/// The first of each name.
+/// Items with unique names, the first of each.
 fn distinct<T>(mut items: Vec<T>, name: impl Fn(&T) -> &String) -> Vec<T> {
     let mut seen = HashSet::new();
     items.retain(|item| seen.insert(name(item).clone()));
     items
 }
 
-/// Lists with commas, several of them; a comma within double quotes belongs to a name.
+/// Splits lists at commas, except within double quotes.
 fn split(lists: &[String]) -> Vec<String> {
     let mut items = Vec::new();
     for list in lists {
@@ -140,7 +140,7 @@ fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
     Ok(summary.map_or_else(Vec::new, |s| s.figures(model)))
 }
 
-/// A bar of one stage of the work, made at its first step.
+/// Progress bar of a stage, created at its first step.
 struct Stage {
     show: Show,
     what: &'static str,
@@ -152,7 +152,7 @@ impl Stage {
         Stage { show, what, bar: OnceLock::new() }
     }
 
-    /// `done` of `all` are done.
+    /// Sets the progress: `done` of `all`.
     fn is_at(&self, done: usize, all: usize) {
         if let Some(bar) = self.bar.get_or_init(|| self.show.bar(all as u64, self.what)) {
             bar.set_position(done as u64);
@@ -168,7 +168,7 @@ impl Drop for Stage {
     }
 }
 
-/// Computes all derivatives and shows its progress, stage by stage.
+/// Computes all derivatives and shows the progress by stage.
 ///
 /// # Errors
 /// Every parameter that has none; a run that cannot be followed.
@@ -219,7 +219,7 @@ pub fn analyse(model: &Model, asked: &Asked<'_>, show: Show) -> Result<Analysis,
     Ok(Analysis { values, trajectory, built, derivatives: all, neighbours, comparisons, cost_s })
 }
 
-/// The run in duals, and what follows of it by parameter; `cost_s` is the time of the former.
+/// The dual run and the derivatives by parameter; `cost_s` is the time of the former.
 fn derive(
     model: &Model,
     parameters: &[Parameter<'_>],
@@ -247,7 +247,7 @@ fn mean_step_s(model: &Model, trajectory: &Trajectory) -> f64 {
     (trajectory.outcome.time_s - model.setup().time.start_s) / trajectory.outcome.effort.steps.max(1) as f64
 }
 
-/// Relative sensitivity: parts of the figure per part of the parameter; none if one of them is 0.
+/// Relative sensitivity: relative change of the figure per relative change of the parameter; none if one of them is 0.
 pub fn relative(derivative: f64, value: f64, nominal: f64) -> Option<f64> {
     let relative = derivative * nominal / value;
     (value != 0.0 && nominal != 0.0 && relative.is_finite()).then_some(relative)

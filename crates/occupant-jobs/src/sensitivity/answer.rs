@@ -44,8 +44,8 @@ pub fn answer(file: &str, model: &Model, asked: &Asked<'_>, analysis: &Analysis)
     })
 }
 
-/// Changes are parts of `size`; a doubt is the largest relative distance of two extrapolations, of the constants that the
-/// model is built of and of the vehicle's motion, null if the parameter leaves that alone.
+/// Changes are fractions of `size`; a doubt is the largest relative difference of two extrapolations, of the model's
+/// constants and of the vehicle's motion, null if the parameter does not affect it.
 fn parameters(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     let one = |(parameter, built): (&Parameter<'_>, &Built)| {
         let (path_doubt, path_doubt_time_s) = built.path_doubt().unzip();
@@ -63,8 +63,9 @@ fn parameters(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     asked.parameters.iter().zip(&analysis.built).map(one).collect()
 }
 
-/// `doubt` is the distance of two extrapolations of the derivative, and rounding; `off_by` the largest distance of a secant
-/// from the derivative, as a part of it, for changes up to `up_to_part`, or at that where it does not hold for a `reason`.
+/// `doubt` is the difference of two extrapolations of the derivative, plus rounding; `off_by` the largest relative
+/// difference of a secant from the derivative, for changes up to `up_to_part`, or at that change if it does not hold
+/// for a `reason`.
 fn sensitivities(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     let mut all = Vec::new();
     for (i, measure) in asked.request.figures.iter().enumerate() {
@@ -99,7 +100,7 @@ fn sensitivities(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     all
 }
 
-/// `shift_s_per_unit` is by parameter, null where it is not known.
+/// `shift_s_per_unit` is by parameter, null where unknown.
 fn event(event: &Event, model: &Model) -> Value {
     json!({
         "time_s": event.time_s,

@@ -24,7 +24,7 @@ pub fn histories(asked: &Asked<'_>, analysis: &Analysis) -> Histories {
     Histories { time_s: outputs.iter().map(|o| o.time_s).collect(), columns, notes: Vec::new() }
 }
 
-/// What the columns are; `source` is the scenario's name and SHA-256.
+/// Description of the columns; `source` is the scenario's name and SHA-256.
 pub fn about(model: &Model, asked: &Asked<'_>, analysis: &Analysis, [source, sha256]: [&str; 2]) -> About {
     let mut columns = vec![ColumnAbout::time()];
     for channel in &asked.request.channels {

@@ -9,9 +9,9 @@ use super::units::per;
 use crate::base::Units;
 use crate::base::text_table::{Align, NONE, Table, facts, trimmed};
 
-/// Distance of two extrapolations of the vehicle's motion that counts as a kink.
+/// Difference of two extrapolations of the vehicle's motion that counts as a kink.
 const KINK: f64 = 1e-2;
-/// Events listed one by one.
+/// Largest number of events listed.
 const LISTED: usize = 30;
 
 /// The whole answer.
@@ -116,7 +116,7 @@ fn table(asked: &Asked<'_>, analysis: &Analysis, units: Units) -> String {
     table.text()
 }
 
-/// Why derivatives do not hold, each reason once.
+/// Reasons why derivatives do not hold, each once.
 fn reasons(analysis: &Analysis) -> String {
     let mut given: Vec<Why> = Vec::new();
     for comparison in analysis.comparisons.iter().flatten() {
@@ -135,9 +135,9 @@ fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
-/// Five digits.
+/// A number with five digits.
 fn number(value: f64) -> String {
-    /// Least sizes that take 0, 1, 2, … decimals.
+    /// Least magnitudes for 0, 1, 2, … decimals.
     const LEAST: [f64; 7] = [1e4, 1e3, 1e2, 1e1, 1.0, 0.1, 0.01];
     match value.abs() {
         0.0 => format!("{value:.4}"),
@@ -166,7 +166,7 @@ fn words(verdict: &Verdict, of_zero: bool) -> String {
     }
 }
 
-/// Two digits at least.
+/// A percentage with at least two digits.
 fn percent(part: f64) -> String {
     let value = part * 100.0;
     match value {
@@ -178,7 +178,7 @@ fn percent(part: f64) -> String {
     }
 }
 
-/// What only bends a force: counted, not listed, with its words in that line.
+/// Kinks of a force, which are counted, not listed, with their descriptions.
 const MINOR: [(Touching, &str); 4] = [
     (Touching::Unloads, "springs of contacts unload"),
     (Touching::Reloads, "load again"),
@@ -186,7 +186,7 @@ const MINOR: [(Touching, &str); 4] = [
     (Touching::SlipsBack, "friction reverses"),
 ];
 
-/// Jumps and what begins or ends, one by one; what only bends a force, by number.
+/// Jumps, beginnings and ends one by one; kinks by number.
 fn events(model: &Model, events: &[Event], units: Units) -> String {
     let is =
         |event: &Event, minor: Touching| matches!(event.happening, Happening::Contact { what, .. } if what == minor);

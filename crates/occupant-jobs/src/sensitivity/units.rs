@@ -1,6 +1,6 @@
 //! Units of derivatives.
 
-/// The unit of a derivative: that of what changes, per that of the parameter.
+/// Unit of a derivative: that of the figure per that of the parameter.
 pub fn per(measure: &str, parameter: &str) -> String {
     let bare = |unit: &str| unit == "1" || unit.is_empty();
     let parameter_in_brackets =

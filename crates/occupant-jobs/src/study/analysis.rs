@@ -10,74 +10,74 @@ use occupant_study::{Block, Design, Role, Study};
 use super::samples::varies;
 use super::{Input, Samples};
 
-/// The regression of k parameters looks at no more than this over (k + 1)² rows, evenly taken: its intervals are those of
-/// a thousand resamples.
+/// Limit on rows × (k + 1)² of a regression on k parameters with a thousand resamples; beyond it, rows are subsampled
+/// evenly.
 const REGRESSION_WORK: usize = 1_000_000;
-/// Nor at more than these.
+/// Largest number of rows of a regression.
 const REGRESSION_ROWS: usize = 20_000;
 
-/// What a table of samples says of one response.
+/// Analysis of one response in a table of samples.
 #[derive(Clone, Debug)]
 pub struct Analysis {
-    /// Which response of the table.
+    /// Index of the response.
     pub response: usize,
-    /// How its values spread; none if no sample has one.
+    /// Spread of its values; none if no sample has one.
     pub spread: Option<Spread>,
-    /// Why nothing can be said of what matters: it is the same everywhere.
+    /// Whether it is constant, so that no parameter matters.
     pub constant: bool,
     /// Rank correlation and regression.
     pub linear: Linear,
-    /// What the design is made for.
+    /// Analysis specific to the design.
     pub by_design: ByDesign,
-    /// Parameters, those that matter most first.
+    /// Parameters, the most important first.
     pub order: Vec<usize>,
 }
 
 /// Rank correlation and regression.
 #[derive(Clone, Debug)]
 pub struct Linear {
-    /// Why there is none, if there is none at all.
+    /// Reason why there is none.
     pub without: Option<String>,
-    /// By parameter: its rank correlation, or why it has none.
+    /// By parameter: its rank correlation, or the reason why it has none.
     pub ranks: Vec<Result<RankCorrelation, String>>,
-    /// The regression on these parameters, or why there is none.
+    /// The parameters of the regression with its result, or the reason why there is none.
     pub regression: Result<(Vec<usize>, Regression), String>,
 }
 
-/// What a design is made for.
+/// Analysis specific to a design.
 #[derive(Clone, Debug)]
 pub enum ByDesign {
-    /// Nothing of its own.
+    /// None.
     Plain,
-    /// Sobol's indices, or why there are none.
+    /// Sobol's indices, or the reason why there are none.
     Sobol(Result<SobolIndices, String>),
-    /// Morris's effects by parameter, or why there are none.
+    /// Morris's effects by parameter, or the reason why there are none.
     Morris(Result<Vec<Effect>, String>),
-    /// What each parameter alone does, or why that is not known.
+    /// Reach of each parameter alone, or the reason why it is unknown.
     OneAtATime(Result<Vec<Reach>, String>),
 }
 
-/// How far a response goes when one parameter alone is moved.
+/// Range of a response when one parameter alone is changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
-    /// The response of the base.
+    /// Response of the base scenario.
     pub nominal: f64,
-    /// Value of the parameter and response, in the order of the design; those that have a value.
+    /// Parameter values and responses, in the order of the design, where they exist.
     pub levels: Vec<(f64, f64)>,
-    /// Levels without a value.
+    /// Number of levels without a value.
     pub missing: usize,
-    /// Whether the values of the parameter have an order; words have none.
+    /// Whether the parameter's values are ordered; words are not.
     ordered: bool,
 }
 
 impl Reach {
-    /// Least and largest response, that of the base included.
+    /// Least and largest response, including that of the base.
     pub fn range(&self) -> [f64; 2] {
         let all = || self.levels.iter().map(|l| l.1).chain([self.nominal]);
         [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
     }
 
-    /// The response at the least and at the largest value of the parameter, if its values have an order.
+    /// Responses at the least and the largest value of the parameter, if its values are ordered.
     pub fn ends(&self) -> Option<[f64; 2]> {
         if !self.ordered {
             return None;
@@ -112,7 +112,7 @@ impl Analysis {
     }
 }
 
-/// Parameters by how much they matter, as far as that is known.
+/// Parameters by importance, as far as known.
 fn order(parameters: usize, by_design: &ByDesign, linear: &Linear) -> Vec<usize> {
     let weight = |i: usize| -> f64 {
         match by_design {
@@ -168,9 +168,9 @@ impl Linear {
     }
 }
 
-/// A row for each point of a design with crossed parameters: the point's inputs, and the mean response over all
-/// combinations of crossed values. Rows of one point are not independent; these means are. Points that are not complete
-/// are left out.
+/// One row per point of a design with crossed parameters: the point's inputs, and the mean response over all
+/// combinations of crossed values. Rows of one point are not independent, but these means are. Incomplete points are
+/// omitted.
 fn means_of_points(samples: &Samples, values: &[f64], crossing: u64) -> (Vec<Input>, Vec<f64>) {
     let rows: Vec<usize> = (0..samples.len()).collect();
     let points = rows.chunk_by(|a, b| samples.numbers[*a] / crossing == samples.numbers[*b] / crossing);
@@ -181,7 +181,7 @@ fn means_of_points(samples: &Samples, values: &[f64], crossing: u64) -> (Vec<Inp
     (samples.inputs.iter().map(of_points).collect(), whole.iter().map(mean).collect())
 }
 
-/// The regression on all parameters that are numbers and vary.
+/// Regression on all numeric parameters that vary.
 fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(Vec<usize>, Regression), String> {
     let among = |i: &usize| inputs[*i].is_number() && inputs[*i].varies();
     let which: Vec<usize> = (0..inputs.len()).filter(among).collect();
@@ -199,14 +199,14 @@ fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(V
     found.map(|found| (which, found)).map_err(|e| said(&e))
 }
 
-/// Rows whose parameters were drawn independently: of Saltelli's blocks those of A and B.
+/// Rows with independent parameters: for Saltelli's blocks those of A and B.
 fn independent(samples: &Samples) -> Vec<usize> {
     let is_mixed =
         |row: &usize| matches!(samples.roles[*row], Role::Saltelli { block: Block::Ab { .. } | Block::Ba { .. }, .. });
     (0..samples.len()).filter(|row| !is_mixed(row)).collect()
 }
 
-/// Points of which every run is there; a run without a figure is NaN.
+/// Points whose runs all exist; NaN for a run without the figure.
 fn sobol(samples: &Samples, values: &[f64], seed: u64) -> Result<SobolIndices, String> {
     let (mut a, mut b, mut ab) = (Vec::new(), Vec::new(), vec![Vec::new(); samples.inputs.len()]);
     let runs = samples.roles.iter().zip(values).filter_map(|(role, value)| match role {
@@ -230,7 +230,7 @@ fn sobol(samples: &Samples, values: &[f64], seed: u64) -> Result<SobolIndices, S
     })
 }
 
-/// The effects of every step whose two runs are there.
+/// Effects of all steps whose two runs exist.
 fn morris(samples: &Samples, values: &[f64], seed: u64) -> Result<Vec<Effect>, String> {
     let mut effects: Vec<Vec<f64>> = vec![Vec::new(); samples.inputs.len()];
     for (row, role) in samples.roles.iter().enumerate() {

@@ -20,35 +20,35 @@ use crate::sweep::Plan;
 use crate::sweep::words::tell_damaged;
 use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
 
-/// What a file says of itself.
+/// Metadata key of a band file.
 const ABOUT: &str = "occupant.bands";
 
 /// The bands of a study.
 pub struct StudyBands<'a> {
-    /// What is to be run.
+    /// The study.
     pub plan: &'a Plan,
-    /// What names its sweep.
+    /// SHA-256 of the manifest of its sweep.
     pub manifest_sha256: &'a str,
     /// Names and patterns of channels; the main ones for none.
     pub channels: &'a [String],
-    /// Where the files go.
+    /// Folder of the files.
     pub folder: PathBuf,
-    /// What runs them.
+    /// Engine.
     pub engine: &'a Engine,
-    /// What stops it.
+    /// Request to stop.
     pub interrupt: &'a Interrupt,
-    /// Which of the files are as they were written.
+    /// Checksums of the intact files.
     pub sums: Checksums,
-    /// What it shows of its way.
+    /// Progress display.
     pub show: Show,
 }
 
-/// What is there of a sample.
+/// Existing results of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum There {
     Bands,
     Nothing,
-    /// A file of something else.
+    /// A file of another study or of other channels.
     Other,
 }
 
@@ -101,7 +101,7 @@ impl StudyBands<'_> {
         }
     }
 
-    /// Of which sweep and channels the files are.
+    /// Identity of the sweep and the channels.
     fn about(&self) -> String {
         let about = serde_json::json!({
             "sweep": self.manifest_sha256,
@@ -132,7 +132,7 @@ impl StudyBands<'_> {
         self.publish(sample, &channels, &members)
     }
 
-    /// The channels of a sample; none of one that is refused.
+    /// Channels of a sample; none if it was refused.
     fn channels_of(&self, run: u64) -> Result<Vec<Channel>, Failure> {
         let Ok(opened) = self.plan.open_sample(run) else {
             return Ok(Vec::new());
@@ -170,7 +170,7 @@ impl StudyBands<'_> {
     }
 }
 
-/// What the metadata of a file of bands say.
+/// Metadata of a band file.
 fn said_of_itself(path: &Path) -> Option<String> {
     let reader = SerializedFileReader::new(File::open(path).ok()?).ok()?;
     let entries = reader.metadata().file_metadata().key_value_metadata()?;

@@ -12,25 +12,26 @@ use super::shown::part as shown_part;
 use super::{Gathered, Samples};
 use crate::sweep::Stored;
 
-/// A Sobol index is marked if its 95 % interval is wider.
+/// Largest 95 % interval of an unmarked Sobol index.
 const INDEX_WIDTH: f64 = 0.1;
-/// A Sobol index is marked if fewer points carry it: of intervals carried by fewer than 5 one in five misses the truth.
+/// Least effective number of points of an unmarked Sobol index: with fewer than 5, one in five intervals misses the
+/// truth.
 const CARRYING: f64 = 10.0;
-/// An effect that no point shows may be there in fewer than 3 of so many, with 95 % confidence.
+/// Number of points without an effect after which it occurs in fewer than 3 of that many, with 95 % confidence.
 const UNSEEN: usize = 300;
-/// A regression is marked with fewer rows for each parameter.
+/// Least number of rows per parameter of an unmarked regression.
 const ROWS_PER_PARAMETER: usize = 10;
-/// A regression is marked if it explains a smaller part of the variance.
+/// Least R² of an unmarked regression.
 const EXPLAINED: f64 = 0.7;
-/// A rank correlation is marked with fewer rows.
+/// Least number of rows of an unmarked rank correlation.
 const RANKED_ROWS: usize = 20;
-/// Morris's effects are marked with fewer trajectories.
+/// Least number of trajectories of unmarked Morris effects.
 const TRAJECTORIES: usize = 10;
-/// Everything is marked where a greater part of the runs has no figure.
+/// Largest fraction of runs without the figure.
 const MISSING: f64 = 0.05;
-/// Parameters with a stronger rank correlation are named.
+/// Rank correlation above which a pair of parameters is reported.
 const TOGETHER: f64 = 0.3;
-/// At most so many pairs of them.
+/// Largest number of such pairs.
 const NAMED: usize = 3;
 
 /// The rules, for the page and the documentation.
@@ -57,12 +58,12 @@ pub fn rules() -> [String; 8] {
     ]
 }
 
-/// Why a rank correlation is marked.
+/// Reason to mark a rank correlation.
 pub fn rank(found: &RankCorrelation) -> Option<String> {
     (found.rows < RANKED_ROWS).then(|| format!("{} rows, fewer than {RANKED_ROWS}", found.rows))
 }
 
-/// Why the coefficients of a regression are marked.
+/// Reason to mark the coefficients of a regression.
 pub fn regression(found: &Regression) -> Option<String> {
     let needed = ROWS_PER_PARAMETER * found.coefficients.len();
     if found.rows < needed {
@@ -71,7 +72,7 @@ pub fn regression(found: &Regression) -> Option<String> {
     (found.explained < EXPLAINED).then(|| format!("R² is below {EXPLAINED}"))
 }
 
-/// Why an index of a parameter is marked.
+/// Reason to mark an index.
 pub fn index(index: &Estimate, parameter: usize, found: &SobolIndices) -> Option<String> {
     if part(found.dropped, found.points + found.dropped) > MISSING {
         let all = found.points + found.dropped;
@@ -88,7 +89,7 @@ pub fn index(index: &Estimate, parameter: usize, found: &SobolIndices) -> Option
     }
 }
 
-/// Why an effect is marked.
+/// Reason to mark an effect.
 pub fn effect(found: &Effect) -> Option<String> {
     if found.effects < TRAJECTORIES {
         return Some(format!("{} trajectories, fewer than {TRAJECTORIES}", found.effects));
@@ -97,12 +98,12 @@ pub fn effect(found: &Effect) -> Option<String> {
     wide.then(|| "interval wider than the effect".to_owned())
 }
 
-/// Why all numbers of a response are marked: samples without a value.
+/// Reason to mark all numbers of a response: samples without a value.
 pub fn lacking(spread: Option<&Spread>) -> Option<String> {
     spread.and_then(|s| missing(s.missing, s.members + s.missing))
 }
 
-/// Why all numbers of a response are marked: caveats on it.
+/// Reason to mark all numbers of a response: its caveats.
 pub fn spoiled(found: &Spoiled) -> Option<String> {
     let Spoiled { runs, of, names } = found;
     let names = || names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
@@ -118,7 +119,7 @@ fn part(some: usize, all: usize) -> f64 {
     some as f64 / all.max(1) as f64
 }
 
-/// What a reader should know of the whole study.
+/// Notes on the whole study.
 pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     let ends = &gathered.ends;
     let mut notes = opened.notes.clone();
@@ -153,7 +154,7 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     notes
 }
 
-/// Parameters that go together, the strongest first: what one does cannot be separated from what the other does.
+/// Correlated parameters, the strongest pair first: their effects cannot be separated.
 fn together(samples: &Samples) -> Vec<String> {
     let numbers: Vec<_> = samples.inputs.iter().filter(|i| i.is_number()).collect();
     let mut pairs = Vec::new();

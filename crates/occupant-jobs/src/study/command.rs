@@ -9,7 +9,7 @@ use crate::base::file_name;
 use crate::files::study_folder::{Manifest, NamedBy};
 use crate::sweep::Plan;
 
-/// The command that runs a run of the study again, given in the folder of the sweep. None if no shell can say it.
+/// The command that repeats a run of the study, from the folder of the sweep. None if it cannot be written for a shell.
 pub fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
     let (args, _) = plan.command(run);
     let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;
@@ -22,7 +22,7 @@ pub fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
     quoted.map(|words| words.join(" "))
 }
 
-/// The files that the sample's scenario names, by the names of their copies, which stand beside that of the scenario.
+/// Copies of the files referred to by the sample's scenario, next to its own copy.
 fn tables(plan: &Plan, manifest: &Manifest, run: u64) -> Vec<String> {
     let named = plan.study.draft(run).map_or_else(|_| Vec::new(), |mut draft| draft.files());
     let copied = |(path, name): (String, String)| {
@@ -33,7 +33,7 @@ fn tables(plan: &Plan, manifest: &Manifest, run: u64) -> Vec<String> {
     named.into_iter().filter_map(copied).collect()
 }
 
-/// A word as a POSIX shell reads it back unchanged; none if it holds a character that no argument can.
+/// A word quoted for a POSIX shell; none if it has a character that no argument may have.
 pub fn quoted(word: &str) -> Option<String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_./=,:@%+-".contains(c);
     match word {

@@ -5,10 +5,10 @@ use occupant_study::{ApplyChoice, Design, Distribution, Law, Parameter, Study, V
 use super::shown::{given, given_with_unit};
 use crate::base::Told;
 
-/// So many values of a list, or places of a parameter, are named.
+/// Largest number of list values or paths named.
 const NAMED: usize = 6;
 
-/// A design in words.
+/// Description of a design.
 pub fn design(study: &Study) -> String {
     let crossed: Vec<&str> = study.parameters.iter().filter(|p| p.crossed).map(|p| p.name.as_str()).collect();
     let design = alone(study);
@@ -40,7 +40,7 @@ fn alone(study: &Study) -> String {
     }
 }
 
-/// How the values of a parameter are spread, as text.
+/// Description of a parameter's law.
 pub fn law(parameter: &Parameter, unit: &Told) -> String {
     let range = |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
     let text = match &parameter.law {
@@ -82,7 +82,7 @@ fn value(value: &Value, unit: &Told) -> String {
     }
 }
 
-/// Where a parameter acts.
+/// Paths that a parameter changes.
 pub fn places(parameter: &Parameter) -> String {
     let paths: Vec<&str> = parameter.targets.iter().take(NAMED).map(|t| t.path.as_str()).collect();
     match parameter.targets.len().saturating_sub(NAMED) {
@@ -91,7 +91,7 @@ pub fn places(parameter: &Parameter) -> String {
     }
 }
 
-/// What the base scenario says of a parameter.
+/// The base scenario's value of a parameter.
 pub fn nominal(parameter: &Parameter, unit: &Told) -> String {
     value(&parameter.nominal(), unit)
 }

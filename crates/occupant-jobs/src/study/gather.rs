@@ -13,31 +13,31 @@ use crate::files::study_folder::{Role, Row};
 use crate::sweep::{Census, Extremes, Stored};
 use occupant_files::table::Cell;
 
-/// So many runs are named at each end of a response.
+/// Number of runs listed at each end of a response.
 const EXTREMES: usize = 3;
 
-/// The table of a study, and how its runs ended.
+/// The table of a study, and the outcomes of its runs.
 #[derive(Clone, Debug, Default)]
 pub struct Gathered {
     /// One row for each sample that is finished.
     pub samples: Samples,
-    /// By response: the runs at its ends.
+    /// By response: the extreme runs.
     pub extremes: Vec<Extremes<RunWithCaveats>>,
     /// By response: caveats on it.
     pub spoiled: Vec<Spoiled>,
-    /// How the runs ended.
+    /// Outcomes of the runs.
     pub ends: Census,
 }
 
-/// The number of a run and the names of the caveats on the figure.
+/// Index of a run, and its caveats on the figure.
 pub type RunWithCaveats = (u64, String);
 
-/// How many of the runs that have a figure have caveats on it, and which.
+/// Number of runs with caveats on a figure, and the caveats.
 #[derive(Clone, Debug, Default)]
 pub struct Spoiled {
     /// How many runs there are.
     pub runs: usize,
-    /// Of how many.
+    /// Total number of runs with the figure.
     pub of: usize,
     /// Their names.
     pub names: BTreeSet<String>,
@@ -167,7 +167,7 @@ impl Gathering<'_> {
     }
 }
 
-/// A value of a list as it stands in the table.
+/// A list value as text of the table.
 fn word(value: &Value) -> Option<String> {
     match value {
         Value::Number(x) => Some(x.to_string()),

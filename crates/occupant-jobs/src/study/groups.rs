@@ -8,10 +8,10 @@ use super::shown::{given_with_unit, shown};
 use super::{Finding, Input, caution};
 use occupant_pictures::html::{Cell, Html};
 
-/// Most rows of such a table.
+/// Largest number of rows of the table.
 const MOST: usize = 24;
 
-/// The table; nothing without such a parameter, or with too many combinations.
+/// The table; empty without such a parameter, or with too many combinations.
 pub fn table(html: &mut Html, of: &Finding<'_>) {
     let inputs = &of.samples.inputs;
     let crossed = inputs.iter().any(|input| input.crossed);
@@ -37,7 +37,7 @@ pub fn table(html: &mut Html, of: &Finding<'_>) {
     html.table(&head.collect::<Vec<_>>(), &groups.iter().map(row).collect::<Vec<_>>());
 }
 
-/// The values of a response by combination of the inputs' values, in the order of these.
+/// Values of a response by combination of the inputs' values, in their order.
 fn groups(keys: &[&Input], values: &[f64]) -> Vec<(Vec<f64>, Vec<f64>)> {
     let mut groups: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
     for (row, value) in values.iter().enumerate() {
@@ -52,7 +52,7 @@ fn groups(keys: &[&Input], values: &[f64]) -> Vec<(Vec<f64>, Vec<f64>)> {
     groups
 }
 
-/// A value as people read it.
+/// A value as printed.
 fn word(input: &Input, value: f64) -> String {
     let words = input.words.as_ref().and_then(|words| words.get(value as usize));
     words.cloned().unwrap_or_else(|| given_with_unit(value, &input.unit))

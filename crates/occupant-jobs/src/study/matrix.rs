@@ -7,20 +7,20 @@ use crate::base::text_table::{NONE, Table};
 use occupant_pictures::html::{Cell, Html};
 use occupant_pictures::svg::escape;
 
-/// At most so many measures stand in the matrix.
+/// Largest number of measures in the matrix.
 const MOST: usize = 12;
 
-/// What a design tells of a parameter: quantity, and words for it.
+/// Quantity that a design gives for each parameter, and its description.
 fn telling(of: &Finding<'_>) -> (&'static str, &'static str) {
     match of.analysis.by_design {
         ByDesign::Sobol(_) => ("sobol_total", "total Sobol indices: fractions of the variance, dimensionless"),
         ByDesign::Morris(_) => ("morris_mu_star", "μ*: mean change over a parameter’s whole range"),
         ByDesign::OneAtATime(_) => ("alone_greatest", "reach: largest minus smallest value with this parameter alone"),
-        ByDesign::Plain => ("rank_correlation", "rank correlations, dimensionless"),
+        ByDesign::Plain => ("rank_correlation", "rank correlations (−1 to 1)"),
     }
 }
 
-/// How much a parameter matters, and why that should not be relied on.
+/// Influence of a parameter, with the reason if it is unreliable.
 fn cell(of: &Finding<'_>, parameter: usize) -> Option<(String, Option<String>)> {
     let number = of.number(telling(of).0, parameter)?;
     let least = match number.quantity {
@@ -32,7 +32,7 @@ fn cell(of: &Finding<'_>, parameter: usize) -> Option<(String, Option<String>)> 
     value.is_finite().then(|| (text, number.mark.clone()))
 }
 
-/// The measures of which anything can be told, with their heads.
+/// Measures that vary, with their headings.
 fn told(report: &Report) -> Vec<(Finding<'_>, String)> {
     let told = report.findings().filter(|of| of.analysis.spread.is_some() && !of.analysis.constant);
     let head = |of: &Finding<'_>| {
@@ -43,7 +43,7 @@ fn told(report: &Report) -> Vec<(Finding<'_>, String)> {
     told.take(MOST).map(|of| (head(&of), of)).map(|(head, of)| (of, head)).collect()
 }
 
-/// The matrix as a section of the page; nothing if nothing can be told.
+/// The matrix as a section of the page; nothing if no measure varies.
 pub(super) fn section(html: &mut Html, report: &Report) {
     let told = told(report);
     let (Some((first, _)), inputs) = (told.first(), &report.gathered.samples.inputs) else { return };
@@ -52,7 +52,7 @@ pub(super) fn section(html: &mut Html, report: &Report) {
     }
     html.text("h2", "What matters for which result");
     let words = "Click a measure for its details. † marks unreliable numbers; hover over one for the reason.";
-    html.text("p class=\"remark\"", &format!("In each cell of a parameter {}. {words}", telling(first).1));
+    html.text("p class=\"remark\"", &format!("Rows of parameters show {}. {words}", telling(first).1));
     let link = |(of, _): &(Finding<'_>, String)| {
         // the rows of the spread have the unit, whatever those of the parameters are
         let unit = shown_unit(&of.response.unit).1;
@@ -73,15 +73,17 @@ pub(super) fn section(html: &mut Html, report: &Report) {
         });
         std::iter::once(Cell::Words(inputs[i].name.clone())).chain(cells).collect()
     };
-    html.table_under(&heads, &spread.into_iter().chain((0..inputs.len()).map(row)).collect::<Vec<_>>());
+    html.table_under(&heads, &(0..inputs.len()).map(row).collect::<Vec<_>>());
+    html.text("p class=\"remark\"", "Values over all runs, in the unit of each result:");
+    html.table_under(&heads, &spread);
 }
 
-/// A name that a narrow column may break behind its points and underscores.
+/// A name that may be broken after its dots and underscores.
 fn breakable(name: &str) -> String {
     name.replace('.', ".<wbr>").replace('_', "_<wbr>")
 }
 
-/// The matrix as a text; empty where nothing can be told.
+/// The matrix as a text; empty if no measure varies.
 pub fn text(report: &Report) -> String {
     let told = told(report);
     let (Some((first, _)), inputs) = (told.first(), &report.gathered.samples.inputs) else { return String::new() };

@@ -6,15 +6,15 @@ use super::shown::{part, shown};
 use super::{ByDesign, Finding, Linear, caution, plots};
 use occupant_pictures::html::{Cell, Html};
 
-/// A column of a table with a row for each parameter: its head, whose numbers stand in it, and what of them.
+/// A table column with a row per parameter: heading, quantity, and what to show of it.
 type Column = (&'static str, &'static str, What);
 
 enum What {
     Value,
     Interval,
-    /// How many rows or effects it is made of.
+    /// Number of rows or effects used.
     Rows,
-    /// How far the response goes.
+    /// Range of the response.
     Reach,
     /// Whether the response rises or falls.
     Reading,
@@ -67,7 +67,7 @@ impl Finding<'_> {
         }
     }
 
-    /// A row for each parameter, those that matter most first.
+    /// A row per parameter, the most important first.
     fn table(&self, html: &mut Html, columns: &[Column]) {
         let head: Vec<&str> = std::iter::once("parameter").chain(columns.iter().map(|(head, ..)| *head)).collect();
         let row = |i: usize| {
@@ -78,7 +78,7 @@ impl Finding<'_> {
     }
 }
 
-/// What the design is made for.
+/// Analysis specific to the design.
 pub fn by_design(html: &mut Html, of: &Finding<'_>) {
     let title = |title: &str| title.to_owned();
     let effects = "Morris’s elementary effects: the change over a parameter’s whole range";
@@ -131,8 +131,8 @@ pub fn linear(html: &mut Html, of: &Finding<'_>) {
     html.raw("</div></div>\n");
 }
 
-/// Which way the response goes with a parameter, by every number without a mark whose interval leaves zero out: the rank
-/// correlation, and the coefficient, which knows what the other parameters do.
+/// Rule for the direction of influence: all unmarked numbers whose interval excludes zero, of the rank correlation and
+/// of the regression coefficient, which accounts for the other parameters.
 pub const SIGN_RULE: &str = "The reading of a sign rests on the rank correlation and the coefficient alike: it is that of the      numbers without a † of their own whose interval leaves zero out. The coefficient sees a small effect beside great ones, the rank correlation      any rising or falling curve; where the two contradict each other, or neither is clear, the sign is not known.";
 
 fn reading(linear: &Linear, parameter: usize) -> String {

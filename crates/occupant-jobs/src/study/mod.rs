@@ -35,18 +35,18 @@ use gather::Gathered;
 use numbers::{Number, numbers};
 use samples::{Input, Response, Samples};
 
-/// Everything that a report says of a study.
+/// Content of a study's report.
 pub struct Report {
-    /// The folder it comes from.
+    /// Its folder.
     pub opened: Stored,
     gathered: Gathered,
     /// By response: its analysis and all its numbers.
     analyses: Vec<(Analysis, Vec<Number>)>,
-    /// What a reader should know before trusting any number of it.
+    /// Notes to read before using any number.
     pub notes: Vec<String>,
 }
 
-/// A response and what the study says of it.
+/// A response with its analysis.
 struct Finding<'a> {
     samples: &'a Samples,
     response: &'a Response,
@@ -55,7 +55,7 @@ struct Finding<'a> {
 }
 
 impl Finding<'_> {
-    /// Parameters, those that matter most first.
+    /// Parameters, the most important first.
     fn order(&self) -> impl Iterator<Item = usize> + Clone {
         self.analysis.order.iter().copied()
     }

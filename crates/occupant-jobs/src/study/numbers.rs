@@ -9,30 +9,30 @@ use crate::sweep::Stored;
 /// One number of a response, SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
-    /// What it is: `median`, `rank_correlation`, `sobol_total`, …
+    /// Quantity: `median`, `rank_correlation`, `sobol_total`, …
     pub quantity: &'static str,
-    /// Its parameter, where it is of one.
+    /// Its parameter, if any.
     pub parameter: Option<usize>,
-    /// Its run, where it is of one.
+    /// Its run, if any.
     pub run: Option<Run>,
-    /// Whether it is in the unit of the response; else it is a plain number.
+    /// Whether it is in the unit of the response instead of a plain number.
     pub in_unit: bool,
     /// Its value and its 95 % interval; NaN without one.
     pub estimate: Estimate,
-    /// Rows, points or effects that it is made of.
+    /// Number of rows, points or effects used.
     pub rows: usize,
-    /// Why it should not be relied on.
+    /// Reason why it is unreliable.
     pub mark: Option<String>,
 }
 
-/// A run at an end of a response.
+/// An extreme run of a response.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// Its number.
     pub number: u64,
-    /// 0 for the largest or least value, 1 for the next.
+    /// Rank: 0 for the largest or least value, 1 for the next.
     pub place: u64,
-    /// The command that runs it again; none if no shell can say it.
+    /// The command that repeats it; none if it cannot be written for a shell.
     pub command: Option<String>,
 }
 
@@ -64,13 +64,14 @@ fn exactly(value: f64) -> Estimate {
 }
 
 struct List {
-    /// Why all numbers are marked.
+    /// Reason to mark all numbers.
     mark: Option<String>,
     numbers: Vec<Number>,
 }
 
 impl List {
-    /// A number of so many rows, marked by its own rule or with all others; of a parameter or of all together.
+    /// Adds a number from `rows` rows, marked by its own rule or together with all others; for one parameter or for
+    /// all.
     fn put(
         &mut self,
         (quantity, in_unit): (&'static str, bool),

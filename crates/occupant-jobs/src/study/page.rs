@@ -4,16 +4,16 @@ use super::{Report, caution, matrix, matters, panels, sections};
 use crate::base::program;
 use occupant_pictures::html::{Html, about as about_page};
 
-/// The look of the report of a run, and what this page adds to it.
+/// Style of a run's report, with additions.
 const STYLE: &str = include_str!("../../assets/viewer/dist/viewer.css");
 const OWN_STYLE: &str = include_str!("../../assets/study/study.css");
 
-/// What the page is of.
+/// Subject of the page.
 pub fn subject(report: &Report) -> String {
     format!("Report of the study {}", report.opened.manifest.title)
 }
 
-/// The whole file.
+/// The complete file.
 pub fn page(report: &Report) -> String {
     let title = match report.opened.manifest.title.as_str() {
         "" => "Study",
@@ -57,7 +57,7 @@ pub fn page(report: &Report) -> String {
     html.finish()
 }
 
-/// How to read it, and where it comes from.
+/// Explanations and origin.
 fn about(html: &mut Html, report: &Report) {
     let opened = &report.opened;
     html.fold("How to read it");

@@ -10,37 +10,37 @@ use super::{Report, Samples};
 use occupant_pictures::html::Html;
 use occupant_pictures::svg::escape;
 
-/// An axis needs so many values.
+/// Fewest values of an axis.
 const LEAST_LEVELS: usize = 3;
-/// At most so many values along an axis, and panels.
+/// Largest number of values along an axis, and of panels.
 const MOST_LEVELS: usize = 20;
 const MOST_PANELS: usize = 36;
-/// Size of a cell, room for the words beside and around a panel, px.
+/// Size of a cell, and space for text beside and around a panel, px.
 const CELL: [f64; 2] = [46.0, 24.0];
 const LEFT: f64 = 62.0;
 const TOP: f64 = 26.0;
 const BELOW: f64 = 40.0;
-/// From the least to the largest: pale to dark, the same order for those who see no colours.
+/// Colours from the least to the largest value: pale to dark, also readable without colour vision.
 const SHADES: [[f64; 3]; 5] =
     [[255.0, 247.0, 220.0], [254.0, 217.0, 142.0], [251.0, 154.0, 60.0], [204.0, 76.0, 20.0], [102.0, 22.0, 10.0]];
 
-/// What is drawn of a response.
+/// A mapped quantity of a response.
 struct Quantity {
     title: String,
     values: Vec<f64>,
-    /// Ends of the colours.
+    /// Range of the colours.
     ends: [f64; 2],
     told: fn(f64) -> String,
 }
 
-/// The panels of a study: its axes, and the inputs and values that tell its panels apart.
+/// Panels of a study: axes, and the inputs and values that distinguish the panels.
 struct Grid<'a> {
     across: (&'a Input, Vec<f64>),
     up: (&'a Input, Vec<f64>),
     others: Vec<(&'a Input, Vec<f64>)>,
 }
 
-/// The maps, where the design has them.
+/// The maps, if the design has any.
 pub fn section(html: &mut Html, report: &Report) {
     let samples = &report.gathered.samples;
     let is_whole = matches!(report.opened.plan.study.design, Design::FullFactorial);
@@ -69,7 +69,7 @@ pub fn section(html: &mut Html, report: &Report) {
 
 const RISKS: &str = "Risk curves apply to dummy readings: head from HIC15, neck from Nij, chest from its 3 ms level, femur from its force. Those of neck and chest are not zero without load (3.8 and 4.1 %).";
 
-/// A response, and the risk of injury by it where there is a curve.
+/// A response, and its injury risk if there is a curve.
 fn quantities(response: &Response) -> Vec<Quantity> {
     let (per, unit) = shown_unit(&response.unit);
     let values: Vec<f64> = response.values.iter().map(|value| value / per).collect();
@@ -88,7 +88,7 @@ fn quantities(response: &Response) -> Vec<Quantity> {
     all
 }
 
-/// Three digits.
+/// A number with three digits.
 fn short(value: f64) -> String {
     match value.abs() {
         size if size >= 100.0 => format!("{value:.0}"),
@@ -99,7 +99,7 @@ fn short(value: f64) -> String {
     .replace('-', "−")
 }
 
-/// An injury, and its risk by a figure's value, SI.
+/// An injury, and its risk as a function of a figure's value, SI.
 type Curve = (&'static str, fn(f64) -> f64);
 
 /// The curve of a figure.
@@ -128,7 +128,7 @@ impl<'a> Grid<'a> {
         (panels <= MOST_PANELS).then_some(Grid { across, up, others: inputs })
     }
 
-    /// The places of the values of the other inputs, panel by panel.
+    /// Indices of the values of the other inputs, by panel.
     fn panels(&self) -> Vec<Vec<f64>> {
         self.others.iter().fold(vec![Vec::new()], |panels, (_, levels)| {
             let longer = |panel: &Vec<f64>| {
@@ -138,7 +138,7 @@ impl<'a> Grid<'a> {
         })
     }
 
-    /// The value of a cell; NaN where no run has one.
+    /// Value of a cell; NaN without a run.
     fn value(&self, samples: &Samples, panel: &[f64], at: [f64; 2], quantity: &Quantity) -> f64 {
         let is_it = |row: usize| {
             let others = self.others.iter().zip(panel).all(|((input, _), level)| input.values[row] == *level);
@@ -183,7 +183,7 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// Different values of an input in their order.
+/// Distinct values of an input in order.
 fn levels(input: &Input) -> Vec<f64> {
     let mut levels: Vec<f64> = input.values.iter().copied().filter(|value| value.is_finite()).collect();
     levels.sort_by(f64::total_cmp);
@@ -211,7 +211,7 @@ fn told(input: &Input, value: f64) -> String {
     }
 }
 
-/// A cell: its colour, and its value in words.
+/// A cell: its colour, and its value as text.
 fn cell([x, y]: [f64; 2], value: f64, quantity: &Quantity) -> String {
     let [least, greatest] = quantity.ends;
     let share = if greatest > least { ((value - least) / (greatest - least)).clamp(0.0, 1.0) } else { 0.0 };
@@ -228,7 +228,7 @@ fn cell([x, y]: [f64; 2], value: f64, quantity: &Quantity) -> String {
     )
 }
 
-/// The colour of a share.
+/// Colour of a fraction.
 fn shade(share: f64) -> String {
     let place = share * (SHADES.len() - 1) as f64;
     let from = (place as usize).min(SHADES.len() - 2);

@@ -5,11 +5,11 @@ use occupant_study::spread::quantile;
 use super::{ByDesign, Finding, Input, Response, plots};
 use occupant_pictures::html::Html;
 
-/// At most so many scatter plots for each response.
+/// Largest number of scatter plots per response.
 const SCATTERS: usize = 9;
-/// Pairs of this many parameters are mapped.
+/// Number of parameters whose pairs are mapped.
 const MAPPED: usize = 4;
-/// Maps need so many rows for five colours to say anything.
+/// Least number of rows for a map with five colours.
 const MAPPED_ROWS: usize = 10;
 
 /// A response over each parameter, and over two at a time.
@@ -65,7 +65,7 @@ fn maps(html: &mut Html, drawn: &[&Input], response: &Response) {
     html.raw("</div>\n");
 }
 
-/// The bounds between the fifths of the values.
+/// Bounds between the fifths of the values.
 fn fifths(values: &[f64]) -> Option<[f64; 4]> {
     let there = values.iter().filter(|x| x.is_finite()).count();
     if there < MAPPED_ROWS {

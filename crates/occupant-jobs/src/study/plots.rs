@@ -6,23 +6,23 @@ use occupant_pictures::plot::{Axis, Curve, Figure, Style, inline};
 
 /// Size of a plot without its legend.
 const SIZE: [f64; 2] = [380.0, 290.0];
-/// Height of a plot of words: of the axes, and of each word.
+/// Height of a plot with word labels: of the axes, and per word.
 const HEAD: f64 = 84.0;
 const EACH: f64 = 24.0;
-/// At most so many parameters stand in a plot of words.
+/// Largest number of parameters in a plot with word labels.
 const MOST_WORDS: usize = 16;
-/// At most so many dots are drawn.
+/// Largest number of dots.
 pub const MOST_DOTS: usize = 1500;
 
 const BLUE: &str = "#0072b2";
 const ORANGE: &str = "#d55e00";
-/// What a rule marks.
+/// Colour of marked numbers.
 const GREY: &str = "#9a9a9a";
 const PALE: &str = "#a6cbe3";
-/// From the least to the largest fifth.
+/// Colours from the lowest to the highest fifth.
 const FIFTHS: [&str; 5] = ["#0d0887", "#6a00a8", "#b12a90", "#e16462", "#fca636"];
 
-/// The two kinds of numbers of a plot: colour, how much lower they stand, size of their dots.
+/// The two kinds of numbers in a plot: colour, vertical offset, size of their dots.
 const KINDS: [(&str, f64, f64); 2] = [(BLUE, -0.14, 7.5), (ORANGE, 0.14, 5.0)];
 
 /// Rank correlations and regression coefficients with their intervals.
@@ -51,7 +51,7 @@ pub fn morris(of: &Finding<'_>) -> String {
     words_figure("Elementary effects over the whole range", of, x, curves)
 }
 
-/// What each parameter alone does.
+/// Range of the response for each parameter alone.
 pub fn tornado(of: &Finding<'_>) -> String {
     let (per, unit) = shown_unit(&of.response.unit);
     let shown = names(of).len();
@@ -115,12 +115,12 @@ pub fn map(across: &Input, up: &Input, response: &Response, fifths: &[f64; 4]) -
     dots_figure(&title, [axis_of(across), axis_of(up)], curves.collect())
 }
 
-/// Names of the parameters that are drawn.
+/// Names of the parameters drawn.
 fn names(of: &Finding<'_>) -> Vec<String> {
     of.order().map(|i| of.samples.inputs[i].name.clone()).take(MOST_WORDS).collect()
 }
 
-/// Where a value stands on the axis of a parameter.
+/// Position of a value on the axis of a parameter.
 fn place(input: &Input, value: f64) -> f64 {
     let value = if input.is_number() { value / shown_unit(&input.unit).0 } else { value };
     if input.by_ratios { value.log10() } else { value }
@@ -133,7 +133,7 @@ fn axis_of(input: &Input) -> Axis {
     }
 }
 
-/// Dots that many others do not hide.
+/// Dot diameter for this many dots.
 fn diameter(count: usize) -> f64 {
     match count {
         0..=60 => 6.0,
@@ -143,7 +143,7 @@ fn diameter(count: usize) -> f64 {
     }
 }
 
-/// Whiskers and dots of quantities (name and label) of these parameters, what a rule marks in grey.
+/// Whiskers and dots of quantities (name and label) of these parameters; marked ones are grey.
 fn intervals(
     of: &Finding<'_>,
     parameters: impl Iterator<Item = usize> + Clone,
@@ -183,7 +183,7 @@ fn words_figure(what: &str, of: &Finding<'_>, x: Axis, curves: Vec<Curve>) -> St
     inline(&Figure::new(&title, [x, Axis::of_words("", words)], curves), [1.1 * SIZE[0], height])
 }
 
-/// A plot with a dot for each sample.
+/// A plot with a dot per sample.
 fn dots_figure(title: &str, axes: [Axis; 2], curves: Vec<Curve>) -> String {
     let empty = "no sample has a value".to_owned();
     inline(&Figure { empty, ..Figure::new(title, axes, curves) }, SIZE)

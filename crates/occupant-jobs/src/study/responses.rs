@@ -10,10 +10,10 @@ use crate::base::Failure;
 use crate::ensemble::judge::is_result;
 use crate::files::study_folder::{Column, Manifest, Role};
 
-/// At most so many of the customary figures.
+/// Largest number of default figures.
 const MOST: usize = 8;
 
-/// The columns of the figures that are asked for, or of all customary ones.
+/// Columns of the requested figures, or of all default ones.
 ///
 /// # Errors
 /// A name or pattern that fits no figure.
@@ -51,7 +51,7 @@ fn unknown(manifest: &Manifest, name: &str) -> Failure {
     Failure::with_help(format!("--to: there is no result `{name}`"), &help)
 }
 
-/// Of the customary figures leaves the first that vary, or the first of all where none does.
+/// Keeps the first default figures that vary, or the first ones if none does.
 pub fn keep_telling(gathered: &mut Gathered) {
     let responses = &gathered.samples.responses;
     let mut kept: Vec<usize> = (0..responses.len()).filter(|i| varies(&responses[*i].values)).take(MOST).collect();
@@ -63,7 +63,7 @@ pub fn keep_telling(gathered: &mut Gathered) {
     keep(&mut gathered.spoiled, &kept);
 }
 
-/// Leaves the items at these places.
+/// Keeps the items at these indices.
 fn keep<T>(list: &mut Vec<T>, places: &[usize]) {
     let mut place = 0..;
     list.retain(|_| place.next().is_some_and(|at: usize| places.contains(&at)));

@@ -4,16 +4,16 @@ use occupant_study::{Role, Study};
 
 use crate::base::{Told, Units};
 
-/// A table of samples, in the order of their numbers.
+/// A table of samples, ordered by index.
 #[derive(Clone, Debug, Default)]
 pub struct Samples {
-    /// Numbers of the samples, increasing; those that are not finished are not there.
+    /// Indices of the finished samples, increasing.
     pub numbers: Vec<u64>,
-    /// What each is in its design.
+    /// Role of each in its design.
     pub roles: Vec<Role>,
-    /// What was varied.
+    /// Parameters.
     pub inputs: Vec<Input>,
-    /// What came of it.
+    /// Responses.
     pub responses: Vec<Response>,
 }
 
@@ -22,13 +22,13 @@ pub struct Samples {
 pub struct Input {
     /// Its name.
     pub name: String,
-    /// Its SI unit is empty for plain numbers and words.
+    /// Its units; the SI unit is empty for plain numbers and words.
     pub unit: Told,
-    /// Its values, NaN where a sample has none; of words, their places in `words`.
+    /// Its values, NaN where missing; for words, indices in `words`.
     pub values: Vec<f64>,
-    /// The words of a parameter that has words for values; none for one with numbers.
+    /// Words of a parameter with text values; none for a numeric one.
     pub words: Option<Vec<String>>,
-    /// Whether equal ratios of its values are as likely, so that it is drawn over powers of ten.
+    /// Whether its law is logarithmic, so that it is drawn on a logarithmic axis.
     pub by_ratios: bool,
     /// Whether each of its values was run with every sample of the other parameters.
     pub crossed: bool,
@@ -41,19 +41,19 @@ pub struct Response {
     pub name: String,
     /// Its unit.
     pub unit: Told,
-    /// Its values, NaN where a run failed or has none.
+    /// Its values, NaN where a run failed or lacks it.
     pub values: Vec<f64>,
-    /// With an ensemble: samples whose members agree, and samples whose members do not.
+    /// With an ensemble: number of samples whose members agree, and whose members do not.
     pub stable: [u64; 2],
 }
 
 impl Samples {
-    /// A table without rows, for a study and responses by name and unit; they are told in the units of the base scenario.
+    /// An empty table for a study and responses by name and unit, displayed in the units of the base scenario.
     pub fn new(study: &Study, responses: &[(String, String)]) -> Self {
         Samples::told_in(Units::of_scenario(study.base.units()), study, responses)
     }
 
-    /// The same, told in these units.
+    /// An empty table with these display units.
     pub fn told_in(units: Units, study: &Study, responses: &[(String, String)]) -> Self {
         let input = |parameter: &occupant_study::Parameter| Input {
             name: parameter.name.clone(),
@@ -74,7 +74,7 @@ impl Samples {
         }
     }
 
-    /// How many samples there are.
+    /// Number of samples.
     pub fn len(&self) -> usize {
         self.numbers.len()
     }
@@ -84,12 +84,12 @@ impl Samples {
         self.numbers.is_empty()
     }
 
-    /// The row of a sample, if it is there.
+    /// The row of a sample, if it exists.
     pub fn row_of(&self, number: u64) -> Option<usize> {
         self.numbers.binary_search(&number).ok()
     }
 
-    /// Adds the row of a sample; `run` is the number of its first run.
+    /// Adds the row of a sample; `run` is the index of its first run.
     pub fn add(&mut self, study: &Study, run: u64) {
         self.numbers.push(study.sample_and_member(run).0);
         self.roles.push(study.role(run));
@@ -102,7 +102,7 @@ impl Input {
         self.words.is_none()
     }
 
-    /// Whether it takes more than one value.
+    /// Whether it has more than one value.
     pub fn varies(&self) -> bool {
         varies(&self.values)
     }

@@ -4,7 +4,7 @@ use super::shown::{shown, shown_unit, with_unit};
 use super::{Finding, Report, describe, groups, matters, pictures};
 use occupant_pictures::html::{Cell, Html};
 
-/// What the study is.
+/// Description of the study.
 pub fn study(html: &mut Html, report: &Report) {
     let opened = &report.opened;
     let (study, manifest) = (&opened.plan.study, &opened.manifest);
@@ -30,7 +30,7 @@ pub fn study(html: &mut Html, report: &Report) {
     html.facts(&facts);
 }
 
-/// What it varies.
+/// Its parameters.
 pub fn varied(html: &mut Html, report: &Report) {
     let study = &report.opened.plan.study;
     if study.parameters.is_empty() {
@@ -51,7 +51,7 @@ pub fn varied(html: &mut Html, report: &Report) {
     html.unfold();
 }
 
-/// How the runs ended.
+/// Outcomes of the runs.
 pub fn ends(html: &mut Html, report: &Report) {
     let ends = &report.gathered.ends;
     html.text("h2", "How the runs ended");
@@ -85,7 +85,7 @@ pub fn ends(html: &mut Html, report: &Report) {
     html.table(&["runs", "first", "reason"], &rows);
 }
 
-/// What stands of a response, folded under a line with its middle and its range. A link to the section unfolds it.
+/// Section of a response, folded under a line with its median and range. A link to the section unfolds it.
 pub fn response(html: &mut Html, of: &Finding<'_>) {
     let heading = match shown_unit(&of.response.unit).1 {
         "" => of.response.name.clone(),

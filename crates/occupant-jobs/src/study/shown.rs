@@ -3,22 +3,22 @@
 use crate::base::Told;
 use crate::base::text_table::{number, without_zeros};
 
-/// SI units in one unit that is shown, and its symbol; empty for a plain number.
+/// SI value of one display unit, and its symbol; empty for a plain number.
 pub fn shown_unit(unit: &Told) -> (f64, &str) {
     (unit.shown.0, &unit.shown.1)
 }
 
-/// A number in its shown unit.
+/// A number in its display unit.
 pub fn shown(value: f64, unit: &Told) -> String {
     significant(value / unit.shown.0)
 }
 
-/// A number with its shown unit.
+/// A number with its display unit.
 pub fn with_unit(value: f64, unit: &Told) -> String {
     unit_after(shown(value, unit), unit)
 }
 
-/// A given number with its shown unit.
+/// A given number with its display unit.
 pub fn given_with_unit(value: f64, unit: &Told) -> String {
     unit_after(given(value, unit), unit)
 }
@@ -31,7 +31,7 @@ fn unit_after(number: String, unit: &Told) -> String {
     }
 }
 
-/// Four significant digits; an exponent where no reader would count zeros.
+/// Four significant digits, with an exponent instead of many zeros.
 pub fn significant(value: f64) -> String {
     let size = value.abs();
     let text = match size {
@@ -46,13 +46,13 @@ pub fn significant(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// The same without zeros at the end: of numbers that somebody gave.
+/// As [`significant`], without trailing zeros: for numbers given by the user.
 pub fn given(value: f64, unit: &Told) -> String {
     let text = shown(value, unit);
     if text.contains('.') && !text.contains('e') { without_zeros(&text).to_owned() } else { text }
 }
 
-/// Three decimals: parts and correlations.
+/// Three decimals, for fractions and correlations.
 pub fn part(value: f64) -> String {
     if value.is_finite() { number(value, 3).replace('-', "−") } else { "–".to_owned() }
 }

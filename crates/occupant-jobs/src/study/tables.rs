@@ -6,7 +6,7 @@ use super::{Finding, Number, Report};
 use crate::base::{Existing, Failure};
 use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
 
-/// Where the tables of a report go.
+/// Files of a report's tables.
 #[derive(Clone, Debug)]
 pub struct Tables {
     /// The table of numbers.
@@ -16,7 +16,7 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Beside the page: `report.html` has `report.parquet` and `report-samples.parquet`.
+    /// Next to the page: `report.html` has `report.parquet` and `report-samples.parquet`.
     pub fn beside(page: &Path) -> Self {
         let stem = page.file_stem().unwrap_or_default().to_string_lossy();
         Tables {

@@ -11,9 +11,9 @@ use super::record::Record;
 use occupant_study::misfit::unrelated_samples;
 use occupant_study::{normal_quantile, of_resample};
 
-/// Records that are made.
+/// Number of synthetic records.
 const RECORDS: u64 = 100;
-/// Half a 95 % interval over the standard deviation.
+/// Half width of a 95 % interval over the standard deviation.
 const WIDE: f64 = 1.96;
 
 /// 95 % intervals, SI.
@@ -21,13 +21,13 @@ const WIDE: f64 = 1.96;
 pub struct Certainty {
     /// Of the force at each point of the curve, the first at depth 0.
     pub force_n: Vec<[f64; 2]>,
-    /// Of the share or the slope of the way back.
+    /// Of the returned share or the unloading slope.
     pub back: Option<[f64; 2]>,
     /// Of the friction.
     pub friction: Option<[f64; 2]>,
 }
 
-/// Intervals of the law of the first choice, which are widened to what the others say, and of the friction.
+/// Intervals of the best law, widened to include its rivals, and of the friction.
 pub(super) fn of(record: &Record, impactor: &Impactor, choices: &[Choice], law: &Law) -> Certainty {
     let Choice { shape, contact, .. } = &choices[0];
     let made: Vec<Made> = (0..RECORDS).filter_map(|i| again(record, impactor, contact, (shape, law), i)).collect();
@@ -59,7 +59,7 @@ pub(super) fn of(record: &Record, impactor: &Impactor, choices: &[Choice], law: 
     }
 }
 
-/// Depth in which the force is no larger than the noise: by so much contact may have begun earlier or later, m.
+/// Depth at which the force is no larger than the noise: contact may have begun earlier or later by that much, m.
 fn hidden(law: &Law, contact: &Contact) -> f64 {
     let level = contact.series.floor_n / contact::FLOOR[0];
     let steps = 1000;
@@ -67,7 +67,7 @@ fn hidden(law: &Law, contact: &Contact) -> f64 {
     depths.into_iter().find(|depth| law.loading(*depth) >= level).unwrap_or(0.0)
 }
 
-/// What a record that was made again tells.
+/// Fit of a synthetic record.
 struct Made {
     force_n: Vec<f64>,
     back: Option<f64>,
@@ -108,7 +108,7 @@ fn again(
     force_n.iter().all(|f| f.is_finite()).then_some(Made { force_n, back, friction })
 }
 
-/// Friction of a record whose tangential noise is in another order.
+/// Friction from a record with permuted tangential noise.
 fn rubbed(record: &Record, impactor: &Impactor, contact: &Contact, number: u64) -> Option<f64> {
     let own = record.tangential_n.as_ref()?;
     let friction = contact.friction(record, impactor)?.ok()?;
@@ -122,7 +122,7 @@ fn rubbed(record: &Record, impactor: &Impactor, contact: &Contact, number: u64) 
     contact.friction(&Record { tangential_n: Some(tangential_n), ..record.clone() }, impactor)?.ok()
 }
 
-/// Blocks of differences in another order, so many in all.
+/// Residual blocks in another order, `count` values in total.
 fn shuffled(off: &[f64], count: usize, number: u64, of: u32) -> Vec<f64> {
     if off.is_empty() {
         return vec![0.0; count];

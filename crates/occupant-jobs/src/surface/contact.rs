@@ -10,17 +10,17 @@ use crate::base::Failure;
 use occupant_core::forces::contact::material::DEFAULT_FRICTION_SPEED_M_S;
 use occupant_study::spread::median;
 
-/// A peak is so many times the noise.
+/// Least ratio of a peak to the noise.
 const ABOVE_NOISE: f64 = 8.0;
-/// Contact begins and ends at so many times the noise, or this part of the peak.
+/// Contact threshold: multiple of the noise, fraction of the peak.
 pub(super) const FLOOR: [f64; 2] = [4.0, 1e-3];
-/// Later force that is told of, and force that has ended, as parts of the peak.
+/// Fraction of the peak above which later force is reported, and below which force has ended.
 const PART: f64 = 0.1;
-/// Samples before contact that tell the zero.
+/// Least number of samples before contact for the zero offset.
 const QUIET: usize = 5;
-/// Equal samples at the peak that look like a sensor's end.
+/// Number of equal samples at the peak that suggest a clipped sensor.
 const FLAT: usize = 4;
-/// Of what goes in, so much may seem to come back.
+/// Largest apparent ratio of returned to absorbed work.
 const MOST_RETURNED: f64 = 1.02;
 
 /// One contact: from its first moment to the last sample with force.
@@ -32,25 +32,25 @@ pub struct Contact {
     pub force_n: Vec<f64>,
     /// Depth, m.
     pub depth_m: Vec<f64>,
-    /// Sample of the greatest depth.
+    /// Index of the greatest depth.
     pub turn: usize,
-    /// Whether the way back was seen to its end.
+    /// Whether unloading was recorded to its end.
     pub rebounds: bool,
-    /// Speed along the normal at first contact, m/s, if it is known.
+    /// Normal speed at first contact, m/s, if known.
     pub speed_m_s: Option<f64>,
     /// Doubts about the record.
     pub caveats: Vec<String>,
     pub(super) series: Arc<Series>,
 }
 
-/// Forces, upright and without offset, and the sample with which contact begins.
+/// Forces with corrected sign and offset, and the index where contact begins.
 #[derive(Clone, Debug)]
 pub(super) struct Series {
     pub(super) time_s: Vec<f64>,
     pub(super) force_n: Vec<f64>,
     pub(super) depth_m: Option<Vec<f64>>,
     pub(super) begin: usize,
-    /// Force above which there is contact, N.
+    /// Force threshold of contact, N.
     pub(super) floor_n: f64,
 }
 
@@ -105,7 +105,7 @@ impl Contact {
         self.depth_m[self.turn]
     }
 
-    /// Work that goes in, and that comes back, J.
+    /// Work absorbed and work returned, J.
     pub fn works(&self) -> [f64; 2] {
         let part = |from: usize, to: usize| work(&self.depth_m[from..=to], &self.force_n[from..=to]);
         [part(0, self.turn), -part(self.turn, self.depth_m.len() - 1)]
@@ -141,7 +141,7 @@ impl Contact {
         Ok(())
     }
 
-    /// Tells of force after the contact.
+    /// Reports force after the contact.
     fn look_behind(&mut self) {
         let (Some(end), series) = (self.time_s.last(), &self.series) else { return };
         let level = (PART * self.peak_n()).max(2.0 * series.floor_n);
@@ -153,7 +153,7 @@ impl Contact {
         }
     }
 
-    /// The coefficient of friction of an oblique impact; none without such a record, words where it slid too little.
+    /// Friction coefficient of an oblique impact; none without tangential data, a message if it slid too little.
     pub(super) fn friction(&self, record: &Record, impactor: &Impactor) -> Option<Result<f64, String>> {
         let own = record.tangential_n.as_ref()?;
         let (Some(mass), Some(speed)) = (impactor.mass_kg, impactor.speed_m_s) else {
@@ -210,7 +210,7 @@ impl Series {
         Ok(series)
     }
 
-    /// Finds where contact begins, and takes away what the record shows before.
+    /// Finds the start of contact and removes the offset before it.
     fn zero(&mut self, first: f64, peak: f64, impactor: &Impactor, caveats: &mut Vec<String>) {
         let rises = |series: &Series, zero: f64| {
             let above = |i: usize| series.force_n.get(i).is_none_or(|force| force - zero > series.floor_n);
@@ -234,7 +234,7 @@ impl Series {
         self.begin = rises(self, 0.0);
     }
 
-    /// The time of first contact: where a line through the first two samples with force meets zero.
+    /// Time of first contact: zero of the line through the first two samples with force.
     fn start(&self) -> f64 {
         let (t, f) = (&self.time_s, &self.force_n);
         let before = (0..self.begin).rev().find(|i| f[*i] <= 0.0);
@@ -246,7 +246,7 @@ impl Series {
     }
 }
 
-/// Depths counted into the surface.
+/// Depths, positive into the surface.
 fn upright(depth: &[f64], caveats: &mut Vec<String>) -> Vec<f64> {
     let first = depth[0];
     let sign =
@@ -259,7 +259,7 @@ fn upright(depth: &[f64], caveats: &mut Vec<String>) -> Vec<f64> {
     depth.iter().map(|x| sign * x).collect()
 }
 
-/// Tells of a peak of equal samples behind a steep rise.
+/// Reports a flat peak after a steep rise.
 fn flat_top(series: &Series, caveats: &mut Vec<String>) {
     let f = &series.force_n;
     let peak = f.iter().copied().fold(0.0, f64::max);
@@ -274,7 +274,7 @@ fn flat_top(series: &Series, caveats: &mut Vec<String>) {
     }
 }
 
-/// Size of the noise, by second differences.
+/// Size of the noise, from second differences.
 fn noise(values: &[f64]) -> f64 {
     let bends: Vec<f64> = values.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
     median(&bends).unwrap_or(0.0) / (0.6745 * 6.0_f64.sqrt())

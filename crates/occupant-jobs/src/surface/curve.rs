@@ -5,30 +5,30 @@ use super::law::{Law, back};
 use super::{Impactor, refuse};
 use crate::base::Failure;
 
-/// Lines that a curve has at most.
+/// Largest number of lines of a curve.
 const MOST: usize = 12;
-/// Places at which a line may end.
+/// Number of candidate positions for the end of a line.
 const PLACES: usize = 32;
-/// The shortest line, as a part of the greatest depth.
+/// Shortest line, relative to the greatest depth.
 const NARROWEST: f64 = 0.02;
-/// Samples of each line at least.
+/// Least number of samples per line.
 const EACH: usize = 3;
-/// Differences below this part of the peak are no differences.
+/// Negligible difference, relative to the peak.
 const FINEST: f64 = 2e-4;
-/// Samples before the force is sure in which it may have begun.
+/// Samples before the threshold in which contact may have begun.
 const NEAR: usize = 4;
-/// A start is found to this part of a sample.
+/// Accuracy of the start, in samples.
 const FINE: f64 = 0.05;
-/// Shapes that are worth this much less are almost as good.
+/// Difference of the criterion below which shapes are nearly as good.
 const RIVAL: f64 = 14.0;
-/// Starts that are tried at once.
+/// Number of starts tried at once.
 const TRIED: usize = 12;
-/// A first line flatter than this part of the mean slope is a gap.
+/// First slope, relative to the mean slope, below which the first line is a gap.
 const GAP: f64 = 0.05;
-/// A curve falls if it loses this part of the peak.
+/// Relative drop from which a curve counts as falling.
 const FALLS: f64 = 0.05;
 
-/// Ends of the lines, as parts of the greatest depth; the last is 1.
+/// Ends of the lines, relative to the greatest depth; the last is 1.
 pub(super) type Shape = Vec<f64>;
 
 /// A shape and the contact whose start fits it best.
@@ -39,7 +39,7 @@ pub(super) struct Choice {
     pub(super) contact: Contact,
 }
 
-/// The shape that the record bears, and others that it bears almost as well, each with its start.
+/// The shape best supported by the record, and others nearly as good, each with its start.
 ///
 /// # Errors
 /// Too few samples while the depth grows.
@@ -61,7 +61,7 @@ pub(super) fn choices(impactor: &Impactor, contact: &Contact) -> Result<Vec<Choi
     Ok(all)
 }
 
-/// The best choices of each number of lines that begin behind a sample, by ever smaller steps.
+/// The best shapes for each number of lines, with starts after a sample, by decreasing steps.
 fn searched(impactor: &Impactor, contact: &Contact, from: usize) -> Vec<Option<Choice>> {
     let series = &contact.series;
     let times = &series.time_s;
@@ -85,7 +85,8 @@ fn first_of(best: &[Option<Choice>]) -> Option<&Choice> {
     best.iter().flatten().min_by(|a, b| a.worth.total_cmp(&b.worth))
 }
 
-/// Keeps the best of each number of lines; a first line without force would be a gap, and contact begins with force.
+/// Keeps the best for each number of lines; a first line without force is rejected as a gap, as contact begins with
+/// force.
 fn keep(best: &mut [Option<Choice>], choice: Choice) {
     let Choice { contact, shape, .. } = &choice;
     let samples = rows(contact).take_while(|[depth, _]| *depth < shape[0] * contact.greatest_m()).count().max(1);
@@ -97,8 +98,8 @@ fn keep(best: &mut [Option<Choice>], choice: Choice) {
     }
 }
 
-/// Moves the start to where straight lines of this shape fit best: by whole samples as far back as contact lasts, then by parts
-/// of one.
+/// Moves the start to the best fit of this shape: by whole samples as far back as contact extends, then by fractions of
+/// one.
 pub(super) fn restart(contact: &mut Contact, impactor: &Impactor, shape: &Shape) {
     let series = contact.series.clone();
     let (times, from) = (&series.time_s, earliest(contact));
@@ -122,12 +123,12 @@ pub(super) fn restart(contact: &mut Contact, impactor: &Impactor, shape: &Shape)
     }
 }
 
-/// The first sample in which contact may begin.
+/// The earliest sample of contact.
 fn earliest(contact: &Contact) -> usize {
     contact.series.begin.saturating_sub(contact.turn + 2)
 }
 
-/// Sum of squares about the lines of the samples from one on, those before contact included, in which there is no force.
+/// Residual sum of squares from a sample on, including samples before contact, which have no force.
 fn cost(contact: &Contact, shape: &Shape, from: usize) -> f64 {
     let series = &contact.series;
     let early = series.time_s[from..].iter().zip(&series.force_n[from..]).take_while(|(t, _)| **t <= contact.time_s[0]);
@@ -139,7 +140,7 @@ fn rows(contact: &Contact) -> impl Iterator<Item = [f64; 2]> + '_ {
     (1..=contact.turn).map(|i| [contact.depth_m[i], contact.force_n[i]])
 }
 
-/// Forces at the ends of the lines, by least squares: every sample lies between two of them.
+/// Least-squares forces at the ends of the lines.
 pub(super) fn forces(contact: &Contact, shape: &Shape) -> Vec<f64> {
     let n = shape.len();
     let (mut diagonal, mut beside, mut right) = (vec![1e-12; n], vec![0.0; n], vec![0.0; n]);
@@ -165,14 +166,14 @@ pub(super) fn forces(contact: &Contact, shape: &Shape) -> Vec<f64> {
     right
 }
 
-/// The line in which a part of the depth lies, and how far along it.
+/// Index of the line at a relative depth, and the position along it.
 fn place(shape: &Shape, part: f64) -> (usize, f64) {
     let at = shape.partition_point(|end| *end < part).min(shape.len() - 1);
     let from = if at == 0 { 0.0 } else { shape[at - 1] };
     (at, (part - from) / (shape[at] - from))
 }
 
-/// Sum of squares about the best lines.
+/// Residual sum of squares of the best lines.
 fn squares(contact: &Contact, shape: &Shape) -> f64 {
     let force = forces(contact, shape);
     let off = |[depth, measured]: [f64; 2]| {
@@ -183,7 +184,7 @@ fn squares(contact: &Contact, shape: &Shape) -> f64 {
     rows(contact).map(off).sum()
 }
 
-/// What the criterion of Schwarz gives a shape, the less the better; samples from one on count.
+/// Schwarz criterion of a shape, lower is better, from a sample on.
 fn worth(contact: &Contact, shape: &Shape, from: usize) -> f64 {
     let before = contact.series.time_s[from..].iter().take_while(|t| **t <= contact.time_s[0]).count();
     let n = (before + contact.turn) as f64;
@@ -191,7 +192,7 @@ fn worth(contact: &Contact, shape: &Shape, from: usize) -> f64 {
     n * (cost(contact, shape, from).max(finest) / n).ln() + 2.0 * shape.len() as f64 * n.ln()
 }
 
-/// Lines are divided as long as that is worth it, and once more.
+/// Divides lines while the criterion improves, and once more.
 fn grown(contact: &Contact, from: usize) -> Vec<Choice> {
     let choice = |shape: Shape| Choice { worth: worth(contact, &shape, from), shape, contact: contact.clone() };
     let mut all = vec![choice(vec![1.0])];
@@ -209,7 +210,7 @@ fn grown(contact: &Contact, from: usize) -> Vec<Choice> {
     all
 }
 
-/// The shape with an end more.
+/// The shape with an additional end.
 fn with(shape: &Shape, end: f64) -> Shape {
     let mut more = shape.clone();
     more.insert(shape.partition_point(|own| *own < end), end);
@@ -226,7 +227,7 @@ fn bears(contact: &Contact, shape: &Shape) -> bool {
     counts.iter().all(|count| *count >= EACH)
 }
 
-/// The shape with each end moved to where it fits best.
+/// The shape with each end moved to its best fit.
 fn moved(contact: &Contact, mut shape: Shape) -> Shape {
     let mut step = 0.5 / PLACES as f64;
     for _ in 0..4 {
@@ -253,7 +254,7 @@ fn least(shapes: impl Iterator<Item = Shape>, cost: impl Fn(&Shape) -> f64) -> O
     .map(|(_, shape)| shape)
 }
 
-/// The law of this shape that fits best.
+/// The best law of this shape.
 pub(super) fn law(shape: &Shape, contact: &Contact) -> Law {
     let force = forces(contact, shape);
     let peak = contact.peak_n();
@@ -265,7 +266,7 @@ pub(super) fn law(shape: &Shape, contact: &Contact) -> Law {
     law
 }
 
-/// Forces that do not fall: those that do are drawn together to their mean.
+/// Monotone forces: falling ones are pooled to their mean.
 fn level(force: Vec<f64>) -> Vec<f64> {
     let mut pools: Vec<(f64, usize)> = Vec::new();
     for f in force {

@@ -2,7 +2,7 @@
 
 use super::Impactor;
 
-/// The sample of the greatest depth.
+/// Index of the greatest depth.
 pub(super) fn greatest(depth_m: &[f64]) -> usize {
     (0..depth_m.len()).fold(0, |most, i| if depth_m[i] > depth_m[most] { i } else { most })
 }
@@ -18,7 +18,7 @@ pub(super) fn measured(times: &[f64], depth: &[f64], from: usize, start_s: f64) 
     std::iter::once(0.0).chain(depth[from.min(depth.len())..].iter().map(|x| x - zero)).collect()
 }
 
-/// Depths of m ẍ = m g − F with straight lines between samples.
+/// Depths from m ẍ = m g − F, linear between samples.
 pub(super) fn integrated(times: &[f64], force_n: &[f64], impactor: &Impactor, speed: f64) -> Vec<f64> {
     let mass = impactor.mass_kg.unwrap_or(f64::NAN);
     let acceleration = |i: usize| impactor.gravity_m_s2 - force_n[i] / mass;

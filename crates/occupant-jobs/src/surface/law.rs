@@ -2,19 +2,19 @@
 
 use super::{Agreement, Contact, Impactor};
 
-/// Force over depth of a surface that has not been touched.
+/// Force over depth of an undamaged surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
     /// Depth, m, and force, N, from (0, 0).
     pub points: Vec<[f64; 2]>,
-    /// The way back.
+    /// Unloading.
     pub back: Option<Back>,
 }
 
-/// A way back, after a greatest depth.
+/// Unloading after a greatest depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Back {
-    /// `returned`: this share of the work comes back; the way in, drawn together to that share of its length.
+    /// `returned`: share of the work returned; the loading curve compressed to that share of its length.
     Share(f64),
     /// `unload_slope`, N/m.
     Slope(f64),
@@ -54,7 +54,7 @@ impl Law {
         self.points.windows(2).map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum()
     }
 
-    /// Forces along a way, N.
+    /// Forces along a sequence of depths, N.
     pub fn along(&self, depth_m: &[f64]) -> Vec<f64> {
         let mut greatest = 0.0_f64;
         let mut force = |depth: &f64| {
@@ -68,7 +68,7 @@ impl Law {
 /// Steps between two samples.
 const STEPS: u32 = 20;
 
-/// Depth and force on an impactor that meets the surface at `times[0]`, at these times: steps by the middle of each interval.
+/// Depth and force of an impactor that touches the surface at `times[0]`, at these times, by midpoint steps.
 fn met(law: &Law, impactor: &Impactor, [mass, speed]: [f64; 2], times: &[f64]) -> Vec<[f64; 2]> {
     let (mut x, mut v, mut greatest) = (0.0_f64, speed, 0.0_f64);
     let mut rows = vec![[0.0, 0.0]];
@@ -85,7 +85,7 @@ fn met(law: &Law, impactor: &Impactor, [mass, speed]: [f64; 2], times: &[f64]) -
     rows
 }
 
-/// Depth and force of the impactor against the law, computed; along the measured depth where mass or speed are unknown.
+/// Computed depth and force of the impactor; along the measured depth if mass or speed are unknown.
 pub(super) fn computed(law: &Law, contact: &Contact, impactor: &Impactor) -> Vec<[f64; 2]> {
     match (impactor.mass_kg, contact.speed_m_s) {
         (Some(mass), Some(speed)) => met(law, impactor, [mass, speed], &contact.time_s),
@@ -93,7 +93,7 @@ pub(super) fn computed(law: &Law, contact: &Contact, impactor: &Impactor) -> Vec
     }
 }
 
-/// How computed depths and forces compare with the record.
+/// Agreement of computed depths and forces with the record.
 pub(super) fn agreement(law: &Law, contact: &Contact, rows: &[[f64; 2]]) -> Agreement {
     let most = |column: usize| rows.iter().map(|row| row[column]).fold(0.0, f64::max);
     let depth_m: Vec<f64> = rows.iter().map(|row| row[0]).collect();
@@ -113,7 +113,7 @@ pub(super) fn work(depth_m: &[f64], force_n: &[f64]) -> f64 {
     depth_m.windows(2).zip(force_n.windows(2)).map(|(x, f)| 0.5 * (f[0] + f[1]) * (x[1] - x[0])).sum()
 }
 
-/// The way back that returns the work that came back: by a share or by a slope, whichever is nearer to the samples.
+/// Unloading that returns the measured work: by a share or by a slope, whichever fits better.
 pub(super) fn back(law: &Law, contact: &Contact, falls: bool) -> Back {
     let [taken, returned] = contact.works();
     let share = Back::Share((returned / taken).clamp(0.01, 1.0));

@@ -23,54 +23,54 @@ pub use contact::Contact;
 pub use law::{Back, Law};
 pub use text::Origin;
 
-/// What is known of the impactor.
+/// Data of the impactor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Impactor {
     /// Mass, kg; needed unless force and depth were measured.
     pub mass_kg: Option<f64>,
     /// Speed at first contact, m/s; needed unless the depth was measured.
     pub speed_m_s: Option<f64>,
-    /// Half the 95 % interval of that speed, m/s.
+    /// Half width of its 95 % interval, m/s.
     pub speed_error_m_s: f64,
-    /// Gravity along the way into the surface, m/s²: 0 of an impactor on a level way.
+    /// Gravity component into the surface, m/s²: 0 for a horizontal impact.
     pub gravity_m_s2: f64,
     /// Angle between velocity and normal, rad.
     pub angle_rad: f64,
 }
 
-/// A surface with what is known of it.
+/// A fitted surface.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Force over depth and the way back.
+    /// Loading and unloading.
     pub law: Law,
-    /// Coefficient of friction; none where it was not measured.
+    /// Friction coefficient; none if not measured.
     pub friction: Option<f64>,
     /// 95 % intervals.
     pub certainty: Certainty,
-    /// What the record says.
+    /// Contact in the record.
     pub contact: Contact,
-    /// Depth, m, and force, N, of the impactor against this surface, computed, at the times of the contact.
+    /// Computed depth, m, and force, N, of the impactor at the times of the contact.
     pub computed: Vec<[f64; 2]>,
-    /// How that compares with the record.
+    /// Agreement with the record.
     pub agreement: Agreement,
-    /// What is to be known before it is used.
+    /// Caveats.
     pub caveats: Vec<String>,
 }
 
-/// The impactor against the fitted surface and the record; ratios are computed over measured.
+/// Agreement of the fitted surface with the record; ratios are computed over measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
-    /// Of the peak forces.
+    /// Ratio of peak forces.
     pub peak_ratio: f64,
-    /// Of the greatest depths.
+    /// Ratio of greatest depths.
     pub depth_ratio: f64,
-    /// Of the work that is lost; none where the way back was not seen.
+    /// Ratio of dissipated work; none if unloading was not recorded.
     pub lost_ratio: Option<f64>,
-    /// Root mean square difference of the forces over the peak.
+    /// RMS difference of the forces, relative to the peak.
     pub residual: f64,
 }
 
-/// The surface that a record tells of, between two times, s.
+/// The surface fitted to a record, between two times, s.
 ///
 /// # Errors
 /// Columns without units or that cannot be told apart; no contact; an impactor that is not stopped, or comes back faster

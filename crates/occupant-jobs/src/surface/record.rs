@@ -6,17 +6,17 @@ use occupant_units::unit::Scale;
 use super::{Impactor, refuse};
 use crate::base::Failure;
 
-/// Samples that a fit needs at least.
+/// Least number of samples for a fit.
 const LEAST: usize = 20;
 /// How to name columns.
 const NAMING: &str = "name the columns with --columns, such as 't[ms],acceleration[g]' or 't[ms],force[kN],depth[mm]'; `-` leaves one out";
 
-/// What was recorded, s, N and m.
+/// Recorded data, s, N and m.
 #[derive(Clone, Debug)]
 pub(super) struct Record {
     /// Times.
     pub(super) time_s: Vec<f64>,
-    /// Force on the impactor, against its way in.
+    /// Force on the impactor, opposite to its motion into the surface.
     pub(super) force_n: Vec<f64>,
     /// Force on the impactor along the surface.
     pub(super) tangential_n: Option<Vec<f64>>,
@@ -24,7 +24,7 @@ pub(super) struct Record {
     pub(super) depth_m: Option<Vec<f64>>,
 }
 
-/// What a column may be: how its heading begins, and its units.
+/// Role of a column: start of its heading, and its units.
 struct Role {
     names: &'static [&'static str],
     units: &'static [&'static str],
@@ -45,7 +45,7 @@ impl Role {
         scale.is_some() && self.units.iter().any(fits)
     }
 
-    /// The column of this role: by its name, or the only one with such a unit, unless it has to be named.
+    /// The column of this role: by its name, or the only one with such a unit, unless a name is required.
     fn of<'a>(&self, recording: &'a Recording, by_unit: bool) -> Result<Option<&'a Signal>, Failure> {
         let file = recording.path.display();
         let own = |signal: &&Signal| self.names(signal);

@@ -5,17 +5,17 @@ use super::{Agreement, Contact, Impactor, Surface};
 use crate::base::text_table::{Align, Table};
 use occupant_pictures::plot::{Axis, Curve, Figure, Sheet, Style, sheet};
 
-/// A difference that is told of, as a part of the peak.
+/// Relative difference above which it is reported.
 const ROUGH: f64 = 0.1;
 
-/// Where a surface comes from, in the words of its file.
+/// Provenance of a surface, in its file.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
-    /// What it is; the name of the record if absent.
+    /// Description; the name of the record if absent.
     pub title: Option<String>,
-    /// Who measured it and where that is published.
+    /// Author and publication.
     pub source: Option<String>,
-    /// The part.
+    /// Specimen.
     pub specimen: Option<String>,
     /// The impactor.
     pub impactor: Option<String>,
@@ -23,13 +23,13 @@ pub struct Origin {
     pub radius_m: Option<f64>,
     /// When it was measured.
     pub date: Option<String>,
-    /// What others may do with it.
+    /// Licence for reuse.
     pub licence: Option<String>,
     /// Name and SHA-256 of the record.
     pub record: [String; 2],
 }
 
-/// What any such fit leaves open, and what this one does.
+/// Limitations of any such fit, and of this one.
 pub(super) fn cautions(law: &Law, contact: &Contact, agreement: &Agreement) -> Vec<String> {
     let mut words = vec![
         format!("deeper than {} mm nothing was measured: the last slope goes on", digits(1e3 * contact.greatest_m())),
@@ -151,7 +151,7 @@ impl Surface {
         sheet(&Sheet { title: title.to_owned(), lines: self.caveats.clone(), columns: 2 }, &figures)
     }
 
-    /// What was found, for a terminal.
+    /// Results for the terminal.
     pub fn words(&self) -> String {
         let range = |[from, to]: [f64; 2], scale: f64| format!("{} to {}", digits(scale * from), digits(scale * to));
         let mut table = Table::new(&[(Align::Right, &["depth mm", "force N"]), (Align::Left, &["95 %"])]);
@@ -177,7 +177,7 @@ impl Surface {
     }
 }
 
-/// Four digits.
+/// A number with four digits.
 fn digits(x: f64) -> String {
     let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
     format!("{rounded}")

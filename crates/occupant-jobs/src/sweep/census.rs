@@ -6,33 +6,33 @@ use occupant_core::results::summary::Caveat;
 
 use crate::files::study_folder::{Manifest, Row, Status};
 
-/// So many different reasons are remembered.
+/// Largest number of different reasons kept.
 const REASONS: usize = 12;
-/// So many runs are remembered with their reasons.
+/// Largest number of runs kept with their reasons.
 const FIRST: usize = 3;
 
-/// How runs ended.
+/// Outcomes of runs.
 #[derive(Clone, Debug, Default)]
 pub struct Census {
     /// All runs of the study.
     pub planned: u64,
-    /// Runs at their end time.
+    /// Runs that reached their end time.
     pub completed: u64,
     /// Runs whose integration failed.
     pub failed: u64,
-    /// Runs whose scenario is refused.
+    /// Runs whose scenario was refused.
     pub refused: u64,
     /// Runs on which the program broke off.
     pub broken: u64,
-    /// Completed runs whose energy balance is lost: their figures count for nothing.
+    /// Completed runs with a lost energy balance, whose figures are invalid.
     pub doubtful: u64,
-    /// The first runs that did not complete, and why.
+    /// The first incomplete runs, with reasons.
     pub first: Vec<(u64, String)>,
-    /// Reasons of runs that did not complete: words, how many, the first run.
+    /// Reasons of incomplete runs: text, number, first run.
     pub reasons: Vec<(String, u64, u64)>,
-    /// Caveats on figures of completed runs: how many runs have each, and the first.
+    /// Caveats of completed runs: number of runs, and the first.
     pub caveats: BTreeMap<String, (u64, u64)>,
-    /// Runs with other reasons still.
+    /// Number of runs with further reasons.
     pub other_reasons: u64,
 }
 
@@ -42,17 +42,17 @@ impl Census {
         Census { planned: manifest.samples, ..Census::default() }
     }
 
-    /// Runs that have ended, however.
+    /// Number of ended runs.
     pub fn finished(&self) -> u64 {
         self.completed + self.failed + self.refused + self.broken
     }
 
-    /// Finished runs without figures that count.
+    /// Number of ended runs without valid figures.
     pub fn without_figures(&self) -> u64 {
         self.finished() - self.completed + self.doubtful
     }
 
-    /// Counts a run; whether its figures count.
+    /// Counts a run; whether its figures are valid.
     pub fn see(&mut self, row: &Row) -> bool {
         *match row.status {
             Status::Completed => &mut self.completed,
@@ -77,7 +77,7 @@ impl Census {
     /// A line for each caveat.
     pub fn caveats(&self) -> impl Iterator<Item = String> {
         let line = |(name, (count, first)): (&String, &(u64, u64))| {
-            format!("{name}: {count} of {} runs, the first is {first}", self.completed)
+            format!("{name}: {count} of {} runs, first in sample {first}", self.completed)
         };
         self.caveats.iter().map(line)
     }

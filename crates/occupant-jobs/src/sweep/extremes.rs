@@ -1,11 +1,11 @@
 //! The runs with the largest and the least values of a figure.
 
-/// The runs at both ends of a figure: value and run.
+/// The extreme runs of a figure: value and run.
 #[derive(Clone, Debug, Default)]
 pub struct Extremes<R> {
-    /// So many at each end.
+    /// Number of runs at each end.
     count: usize,
-    /// Largest first; of equal ones the lowest number.
+    /// Largest first; equal ones by index.
     pub worst: Vec<(f64, R)>,
     /// Least first.
     pub best: Vec<(f64, R)>,
@@ -17,7 +17,7 @@ impl<R: Clone> Extremes<R> {
         Extremes { count, worst: Vec::new(), best: Vec::new() }
     }
 
-    /// Looks at the next run. One without a value is at no end.
+    /// Considers the next run. A run without a value is skipped.
     pub fn see(&mut self, run: &R, value: f64) {
         if value.is_finite() {
             put(&mut self.worst, (value, run), self.count, |a, b| a > b);

@@ -15,30 +15,30 @@ use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWr
 
 /// A sweep, or one part of it.
 pub struct Sweep {
-    /// What is to be run.
+    /// The study.
     pub plan: Plan,
     /// The folder.
     pub folder: Folder,
-    /// Which part of the study.
+    /// Part of the study.
     pub shard: Shard,
-    /// Of which samples the whole run is written.
+    /// Samples whose result file is kept.
     pub keep: Keep,
-    /// Whether tables are written as CSV too.
+    /// Whether tables are also written as CSV.
     pub csv: bool,
-    /// Whether results that are there are removed.
+    /// Whether existing results are removed.
     pub restart: bool,
-    /// Who shows how far it is.
+    /// Progress display.
     pub show: Show,
-    /// Of what is printed.
+    /// Units of printed numbers.
     pub units: Units,
-    /// What runs them.
+    /// Engine.
     pub engine: Engine,
-    /// Whether to stop.
+    /// Request to stop.
     pub interrupt: Interrupt,
 }
 
 impl Sweep {
-    /// Computes what is missing, and of a whole sweep writes the tables. Whether it came to anything, and what to, as text.
+    /// Computes missing samples, and writes the tables of a whole sweep. Outcome and report.
     ///
     /// # Errors
     /// A folder of something else, or in which another process is at work; interrupted; an error of the operating system.
@@ -74,7 +74,7 @@ impl Sweep {
         Ok((Done::Well, String::new()))
     }
 
-    /// Which of the files that this shard has made are as they were written.
+    /// Verifies the files written by this shard.
     fn look_over(&self, samples: &Range<u64>) -> Result<Checksums, Problem> {
         let run = |name: &str| name.strip_prefix("runs/")?.split('.').next()?.parse::<u64>().ok();
         Checksums::open(&self.folder.path, |name| match (run(name), name.rsplit_once('/')) {
@@ -85,7 +85,7 @@ impl Sweep {
         })
     }
 
-    /// Computes what is not finished.
+    /// Computes unfinished samples.
     fn compute(
         &self,
         finished: &Finished,
@@ -116,7 +116,7 @@ impl Sweep {
         Ok(progress)
     }
 
-    /// Writes whole runs of finished samples, where they are missing.
+    /// Writes missing result files of finished samples.
     fn write_kept(
         &self,
         journal: &Journal,
@@ -128,7 +128,7 @@ impl Sweep {
         self.interrupt.refuse("all samples are finished; run the same command again to write the table")
     }
 
-    /// The tables, and the worst.
+    /// Writes the tables and the worst runs.
     fn finish(&self, journal: &Journal, progress: &Progress, sums: Checksums) -> Result<(Done, String), Failure> {
         let results = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
         self.write_kept(journal, &sums, results.worst.iter().copied())?;

@@ -13,7 +13,7 @@ use super::{Plan, Simulation};
 use crate::base::{Failure, partial_path};
 use crate::files::study_folder::{Checksums, Folder, Journal, Problem, Status};
 
-/// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
+/// Parses `none`, `all`, `3, 17` or `worst 5 by head.peak`.
 pub fn parse(text: &str) -> Option<Keep> {
     Keep::from_words(text).or_else(|| {
         let numbers: Result<Vec<u64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
@@ -21,7 +21,7 @@ pub fn parse(text: &str) -> Option<Keep> {
     })
 }
 
-/// Makes the folder of the kept runs, where there will be any.
+/// Creates the folder of the kept runs, if any.
 ///
 /// # Errors
 /// An error of the operating system.
@@ -33,14 +33,14 @@ pub fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
     fs::create_dir_all(&runs).map_err(Problem::io("create", &runs))
 }
 
-/// The samples of a range whose runs are among these files.
+/// Samples of a range whose result files are in a list.
 pub fn among(files: &[PathBuf], folder: &Folder, samples: Range<u64>) -> Vec<u64> {
     let is_there = |i: &u64| files.contains(&folder.run(*i)) || files.contains(&partial_path(&folder.run(*i)));
     if files.is_empty() { Vec::new() } else { samples.filter(is_there).collect() }
 }
 
-/// Writes the whole runs of these samples, all of them finished, whose files are missing or damaged. A run that failed has a
-/// partial file, a sample that was refused none.
+/// Writes the result files of these finished samples where missing or damaged. A failed run has a partial file, a
+/// refused sample none.
 ///
 /// # Errors
 /// A journal that cannot be read, a file that cannot be written.

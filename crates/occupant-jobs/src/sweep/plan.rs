@@ -17,24 +17,24 @@ use crate::risk::columns as vehicle_columns;
 use crate::run::FirstOutput;
 use occupant_files::table::Cell;
 
-/// So many samples, spread over a study, are looked at before it is run, if the first are refused.
+/// Number of samples, spread over a study, checked before it is run if the first are refused.
 const LOOKED_AT: u64 = 32;
 
-/// So many samples are tried to find the columns where the base scenario itself cannot be run.
+/// Number of samples tried to find the columns if the base scenario itself cannot be run.
 const TRIED: u64 = 16;
 
 /// A study and everything it needs. Shared by all threads.
 pub struct Plan {
     /// The study.
     pub study: Study,
-    /// Path of the scenario that is varied, for messages and results.
+    /// Path of the base scenario, for messages and results.
     scenario: PathBuf,
     bytes: Vec<u8>,
-    /// Changes of the study and of the command line that are the same in all samples.
+    /// Changes common to all samples, by the study and the command line.
     changes: Vec<String>,
-    /// What the scenarios of the samples name.
+    /// Files referred to by the scenarios of the samples.
     pub tables: Tables,
-    /// What the folder of the sweep will hold.
+    /// Manifest of the sweep's folder.
     pub manifest: Manifest,
     /// Bytes of the manifest's texts.
     pub texts: Vec<Vec<u8>>,
@@ -43,7 +43,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Reads a study and all that it names; `name` is its name in messages.
+    /// Reads a study and all its files; `name` is its name in messages.
     ///
     /// # Errors
     /// All problems of it, as text.
@@ -80,7 +80,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The values of a sample, by the columns that are inputs.
+    /// Values of a sample, by input column.
     pub fn inputs(&self, index: u64) -> Vec<Cell> {
         let columns = &self.manifest.columns;
         let cell = |(at, setting): (usize, &Setting)| {
@@ -112,7 +112,7 @@ impl Plan {
         Ok(Opened { bytes: Vec::new(), loaded, model, warnings, deck: None })
     }
 
-    /// Refuses a study of which every sample that is looked at is refused, such as one of a key without meaning in its scenario.
+    /// Refuses a study if every sample checked is refused, as with an unknown key in its scenario.
     ///
     /// # Errors
     /// Problems of the first of them.
@@ -132,7 +132,7 @@ impl Plan {
         })
     }
 
-    /// The same of a sample whose run is kept, as `occupant run` has it: its title says what was changed.
+    /// The model of a sample whose run is kept: its title lists the changes.
     ///
     /// # Errors
     /// Problems of its scenario.
@@ -145,7 +145,7 @@ impl Plan {
         Ok((Opened { bytes, loaded, model, warnings, deck: None }, args))
     }
 
-    /// The words with which `occupant run` runs a sample, and the scenario's bytes.
+    /// Arguments with which `occupant run` repeats a sample, and the scenario's bytes.
     pub fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
         let mut overrides = self.changes.clone();
         let assignments = self.study.assignments(index);
@@ -162,7 +162,7 @@ impl Plan {
         self.tables.open(draft)
     }
 
-    /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
+    /// Reads files referred to by the scenario, and by the samples if a study varies file names.
     fn take_tables(&mut self, texts: &Texts) {
         let mut names: Vec<String> = self.study.base.clone().files().into_iter().map(|(_, name)| name).collect();
         let varied = self.study.parameters.iter().any(|p| p.targets.iter().any(|t| names_file(&t.path)));
@@ -183,7 +183,7 @@ impl Plan {
         }
     }
 
-    /// Inputs as the study names them, figures as the base scenario has them.
+    /// Columns: inputs by the study, figures by the base scenario.
     fn columns(&self) -> Result<Vec<Column>, Failure> {
         let number = |name: &str, unit: &str| Column {
             name: format!("input.{name}"),
@@ -208,7 +208,7 @@ impl Plan {
         Ok(columns)
     }
 
-    /// The figures of the first scenario that can be run.
+    /// Figures of the first scenario that can be run.
     fn figures(&self) -> Result<Vec<Figure>, Failure> {
         let tried = std::iter::once(None).chain((0..self.study.len().min(TRIED)).map(Some));
         let mut first_refusal = None;
@@ -251,12 +251,12 @@ pub fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failure> {
     })
 }
 
-/// Problems of a study that names, at this place, a file that cannot be read.
+/// Problem of a study that refers, at this path, to an unreadable file.
 pub fn unread(text: &StudyText, at: &str, file: &str, error: &dyn Display) -> Diagnostics {
     text.complaint(at, format!("{file} cannot be read: {error}"), "a file, with its path relative to the study", None)
 }
 
-/// What the study puts into its scenario in all samples, as `--set` writes it.
+/// Values that the study sets in all samples, as `--set` arguments.
 fn changes_of(text: &StudyText) -> Vec<String> {
     let change = |(path, value): (&String, &Written)| match value {
         Written::Bool(b) => format!("{path}={b}"),
@@ -269,7 +269,7 @@ fn changes_of(text: &StudyText) -> Vec<String> {
     text.section.set.iter().map(change).collect()
 }
 
-/// Whether a parameter has values that are no numbers.
+/// Whether a parameter has non-numeric values.
 fn has_texts(study: &Study, at: usize) -> bool {
     let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
     match (study.parameters.get(at).map(|p| &p.law), &study.design) {

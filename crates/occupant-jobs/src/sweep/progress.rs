@@ -5,22 +5,22 @@ use std::time::Duration;
 use crate::base::progress::{Runs, Show};
 use crate::files::study_folder::{Row, Status};
 
-/// A line so often where there is no terminal.
+/// Interval of progress lines without a terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
-/// How far a sweep is.
+/// Progress of a sweep.
 #[derive(Debug)]
 pub struct Progress {
     runs: Runs,
-    /// Samples that were finished before this process.
+    /// Samples finished before this process.
     before: u64,
-    /// Samples that were computed by this process.
+    /// Samples computed by this process.
     pub computed: u64,
     failed: u64,
 }
 
 impl Progress {
-    /// Of `samples`, `before` are finished.
+    /// Progress of `samples`, of which `before` are finished.
     pub fn new(samples: u64, before: u64, show: Show) -> Self {
         let runs = Runs::new(samples, "samples", LINE_EVERY, show).from(before);
         Progress { runs, before, computed: 0, failed: 0 }
@@ -46,7 +46,7 @@ impl Progress {
         self.runs.elapsed_s()
     }
 
-    /// No more.
+    /// Ends the display.
     pub fn end(&self) {
         self.runs.end();
     }

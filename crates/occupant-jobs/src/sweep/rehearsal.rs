@@ -14,13 +14,13 @@ use crate::base::text_table::{NONE, Table, facts, trimmed};
 use crate::files::study_folder::Role;
 use occupant_files::table::Cell;
 
-/// Samples that are shown.
+/// Number of samples shown.
 const SHOWN: u64 = 5;
-/// Bytes of a value in a table, about.
+/// Approximate size of a table value, bytes.
 const CELL: f64 = 8.0;
 
 impl Sweep {
-    /// How many samples there are, the first of them, and how long they take, judged by running one.
+    /// Number of samples, the first of them, and the time they take, estimated by running one.
     ///
     /// # Errors
     /// The first sample is refused or fails.
@@ -58,7 +58,7 @@ impl Sweep {
         Ok(format!("{}\n{first}{refused}", facts(&lines)))
     }
 
-    /// How many corners the study has, and a line for each that is refused: its values, and why.
+    /// Number of corners of the study, and a line for each refused one: its values, and the reason.
     fn corners(&self) -> (usize, Vec<String>) {
         let (study, all) = (&self.plan.study, self.plan.study.corners());
         let refused = all.iter().filter_map(|corner| {
@@ -80,7 +80,7 @@ impl Sweep {
         (all.len(), refused.collect())
     }
 
-    /// Seconds that a sample takes.
+    /// Wall time of a sample, s.
     fn of_one(&self, index: u64) -> Result<f64, Failure> {
         let began = Instant::now();
         let opened = self.plan.open_sample(index);
@@ -90,7 +90,7 @@ impl Sweep {
         Ok(began.elapsed().as_secs_f64())
     }
 
-    /// The inputs of the first samples.
+    /// Inputs of the first samples.
     fn first(&self, samples: std::ops::Range<u64>) -> String {
         let inputs: Vec<_> =
             self.plan.manifest.columns.iter().filter(|c| matches!(c.role, Role::Input | Role::InputText)).collect();
@@ -125,7 +125,7 @@ impl Sweep {
     }
 }
 
-/// A time in words.
+/// A duration as text.
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 100.0 => format!("{s:.1} s"),

@@ -11,21 +11,21 @@ use crate::files::study_folder::table::write_columns;
 use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, Role, StudyTable};
 use occupant_files::table::{Cell, Form};
 
-/// What a sweep came to.
+/// Results of a sweep.
 pub struct Results {
-    /// How runs ended.
+    /// Outcomes of the runs.
     pub census: Census,
-    /// The samples with the largest values of the measure that the keep names, largest first.
+    /// Samples with the largest values of the measure chosen by `keep`, largest first.
     pub worst: Vec<u64>,
-    /// Least and largest of the figures that are shown: name, unit, values and samples.
+    /// Range of the shown figures: name, unit, values and samples.
     pub ranges: Vec<(String, String, Extremes<u64>)>,
-    /// What is stable, where the study has ensembles.
+    /// Stability of figures, for studies with ensembles.
     pub ensembles: Option<Ensembles>,
     /// Files that were written.
     pub files: Vec<PathBuf>,
 }
 
-/// Writes the tables into `folder` and counts how samples ended.
+/// Writes the tables into `folder` and counts the outcomes.
 ///
 /// # Errors
 /// Samples that are missing or disagree; another process at the same work; an error of the operating system. A table that was
@@ -51,7 +51,7 @@ pub fn write(
     Ok(written)
 }
 
-/// Refuses journals that lack samples.
+/// Refuses journals with missing samples.
 ///
 /// # Errors
 /// Which are missing, by shards.
@@ -104,7 +104,7 @@ fn write_files(
     Ok(Results { census, worst: extremes.worst.iter().map(|(_, index)| *index).collect(), ranges, ensembles, files })
 }
 
-/// The figures that tables show: column, name, unit, and nothing seen yet.
+/// Figures shown in tables: column, name, unit, empty range.
 fn ranges(manifest: &Manifest) -> Vec<(usize, String, String, Extremes<u64>)> {
     let all = manifest.columns.iter().enumerate();
     let shown = all.filter(|(_, column)| column.role == Role::Figure && is_shown(&column.name));

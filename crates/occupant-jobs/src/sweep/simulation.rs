@@ -14,17 +14,17 @@ use occupant_files::table::Cell;
 
 /// Runs the samples of a plan.
 pub struct Simulation<'a> {
-    /// What is to be run.
+    /// The study.
     pub plan: &'a Plan,
-    /// Of which samples the whole run is written.
+    /// Samples whose result file is kept.
     pub keep: &'a Keep,
     /// The folder.
     pub folder: &'a Folder,
-    /// Checksums of what was read.
+    /// Checksums of the inputs.
     pub sums: &'a Checksums,
 }
 
-/// Whether a keep says, beforehand, that the run of a sample is written.
+/// Whether `keep` selects a sample before it is run.
 pub fn is_kept(keep: &Keep, index: u64) -> bool {
     match keep {
         Keep::All => true,
@@ -74,8 +74,7 @@ impl Source for Simulation<'_> {
 }
 
 impl Simulation<'_> {
-    /// Puts the figures into their columns. A run that failed has only those of its work: its peaks are those of numbers
-    /// that ran away.
+    /// Fills in the figures. A failed run has only those of its cost: its peaks are from diverging numbers.
     fn fill(&self, row: &mut Row, summary: &Summary, model: &Model) {
         let kept = &self.plan.manifest.columns;
         let first = kept.iter().take_while(|c| c.role != Role::Figure).count();

@@ -14,25 +14,25 @@ use crate::ensemble::judge::{is_result, judge};
 use crate::files::study_folder::{Folder, Manifest, Role, Row};
 use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
 
-/// Holds the number of the sample that a run is a member of.
+/// Column with the sample index of a run.
 const SAMPLE: &str = "input.ensemble.sample";
 
-/// What the ensembles of a study came to.
+/// Results of a study's ensembles.
 #[derive(Clone, Debug, Default)]
 pub struct Ensembles {
     /// Samples of the design.
     pub samples: u64,
-    /// Members that did not complete, in all samples together.
+    /// Number of incomplete members over all samples.
     pub failed: u64,
-    /// By figure that some sample has.
+    /// By figure that any sample has.
     pub figures: Vec<Counted>,
-    /// The first of them.
+    /// Figures of the first sample.
     pub first: Vec<Judged>,
     /// Files that were written.
     pub files: Vec<PathBuf>,
 }
 
-/// In how many samples a figure is stable.
+/// Number of samples in which a figure is stable.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counted {
     /// Name of the figure.
@@ -47,9 +47,9 @@ pub struct Counted {
     pub absent: u64,
 }
 
-/// Judges samples as their members come, and writes `ensemble.parquet`, and `ensemble.csv` where asked for.
+/// Assesses samples as their members complete, and writes `ensemble.parquet`, and `ensemble.csv` if requested.
 pub struct Stable {
-    /// Column of the sample's number.
+    /// Column of the sample index.
     sample: usize,
     /// Name, unit and column of each figure.
     figures: Vec<(String, String, usize)>,
@@ -58,11 +58,11 @@ pub struct Stable {
     ensembles: Ensembles,
 }
 
-/// The members of a sample so far.
+/// Members of a sample so far.
 struct Sample {
     number: u64,
     failed: u64,
-    /// By figure: a value for each member, NaN where it has none.
+    /// By figure: one value per member, NaN where missing.
     values: Vec<Vec<f64>>,
 }
 
@@ -98,7 +98,7 @@ impl Stable {
         Ok(Some(Stable { sample, figures, present: None, tables: tables.collect::<Result<_, _>>()?, ensembles }))
     }
 
-    /// Looks at the next run; `counts` says whether its figures count.
+    /// Considers the next run; `counts` tells whether its figures are valid.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -142,7 +142,7 @@ impl Stable {
         Ok(())
     }
 
-    /// Gives the complete files their names.
+    /// Renames the complete files.
     ///
     /// # Errors
     /// An error of the operating system.

@@ -8,24 +8,24 @@ use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, 
 
 /// A sweep, finished or not.
 pub struct Stored {
-    /// What it is the sweep of.
+    /// Its manifest.
     pub manifest: Manifest,
-    /// SHA-256 of the study as it was begun.
+    /// SHA-256 of the manifest with which it was started.
     pub manifest_sha256: String,
-    /// The study, made from the copies.
+    /// The study, read from the copies.
     pub plan: Plan,
-    /// The rows that are there.
+    /// The existing rows.
     pub journal: Journal,
-    /// What a reader should know.
+    /// Notes for the reader.
     pub notes: Vec<String>,
 }
 
-/// Whose sweep it may be.
+/// Accepted origin of a sweep.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum MadeBy {
-    /// Of this program alone.
+    /// This program version only.
     ThisProgram,
-    /// Of any program.
+    /// Any version.
     AnyProgram,
 }
 
@@ -104,7 +104,7 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     Ok(common)
 }
 
-/// What names a manifest.
+/// SHA-256 of a manifest.
 ///
 /// # Errors
 /// A study that cannot be written as text.

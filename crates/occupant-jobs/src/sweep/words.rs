@@ -9,21 +9,21 @@ use crate::base::{Done, Units, say};
 use crate::ensemble::text::{figure_table, is_shown, ranged};
 use crate::files::study_folder::Held;
 
-/// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
+/// Warns about a file system without locks; `doing` is the work that two processes could do at once.
 pub fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
     if let (Some(reason), false) = (&held.unlocked, quiet) {
         say(&format!("warning: this file system has no locks ({reason}): make sure that no two processes are {doing}"));
     }
 }
 
-/// Says which files of a folder were damaged. Nobody should overlook that, however quiet a command is to be.
+/// Reports damaged files of a folder, even for a quiet command.
 pub fn tell_damaged(files: &[PathBuf]) {
     for file in files {
         say(&format!("damaged: {} was changed after it was written; it is made again", file.display()));
     }
 }
 
-/// What it came to.
+/// Reports the results.
 pub fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -> String {
     let census = &results.census;
     let mut lines = vec![("samples", ended(census))];
@@ -61,7 +61,7 @@ pub fn judged(census: &Census) -> Done {
     Done::Unwell
 }
 
-/// Least and largest of each figure, and in which samples.
+/// Range of each figure, with its samples.
 fn ranges(results: &Results, units: Units) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["least", "in sample", "greatest", "in sample"]), (Left, &[""])]);
@@ -74,7 +74,7 @@ fn ranges(results: &Results, units: Units) -> String {
     table.text()
 }
 
-/// The ensembles of a study in words.
+/// Report on the ensembles of a study.
 fn stable(ensembles: &Ensembles, units: Units) -> String {
     let failed = match ensembles.failed {
         0 => String::new(),

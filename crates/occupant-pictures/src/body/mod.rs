@@ -14,15 +14,15 @@ pub use snapshot::{PATCH_M, Snapshot};
 use occupant_files::mcap::scene::body::slim_axes_m;
 pub use occupant_files::mcap::scene::body::{Tone, sphere_centre_m};
 
-/// Drawn width of the trunk over that of equal inertia.
+/// Drawn width of the trunk relative to the width of equal inertia.
 const SLIM: f64 = 0.85;
-/// Radius of the drawn neck over that of the head.
+/// Radius of the drawn neck relative to the head.
 const NECK: f64 = 0.5;
-/// Size of the nose over the radius of the head.
+/// Size of the nose relative to the head's radius.
 const NOSE: f64 = 0.22;
-/// A sphere farther from its segment's long axis is no part of the limb, m.
+/// Distance of a sphere from its segment's long axis beyond which it is not part of the limb, m.
 const OFF_AXIS_M: f64 = 0.02;
-/// A limb's last sphere ends the limb if it comes this near to its end, m.
+/// Distance from the end of a limb within which its last sphere forms the end, m.
 const NEAR_END_M: f64 = 0.02;
 
 /// An ellipsoid along its segment's axes.
@@ -39,7 +39,7 @@ pub struct Lump {
 pub struct Part {
     /// The segment it is fixed to.
     pub segment: Segment,
-    /// What it wears.
+    /// Its clothing.
     pub tone: Tone,
     /// Its ends.
     pub ends: [Lump; 2],
@@ -65,7 +65,7 @@ pub fn parts(body: &Body) -> Vec<Part> {
     body.tree.segments().flat_map(of_segment).collect()
 }
 
-/// Neck, head and a nose that shows where it looks. Without a sphere the head is as wide as its inertia says.
+/// Neck, head and a nose that shows its direction. Without a sphere the head's width follows from its inertia.
 fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
     let own = body.spheres.iter().filter(|sphere| sphere.segment == segment);
@@ -87,7 +87,7 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     ]
 }
 
-/// The chest, the bar that carries the shoulders, and as much of the neck as does not turn with the head.
+/// The chest, the bar between the shoulders, and the part of the neck that does not turn with the head.
 fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
     let marks = body.tree.landmarks_at(segment);
@@ -103,7 +103,7 @@ fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     parts
 }
 
-/// The pelvis and the bar that carries the hips.
+/// The pelvis and the bar between the hips.
 fn lower_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let legs = &body.tree.landmarks_at(segment).legs;
     let hip = 0.9 * limb_radius(body, legs.left.or(legs.right).map_or(segment, |leg| leg.upper));
@@ -158,7 +158,8 @@ fn limb(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     parts
 }
 
-/// Spheres beside a limb's axis, such as the toes of a leg without a foot of its own, each with the place of the limb that it is nearest to.
+/// Spheres off a limb's axis, such as the toes of a leg without a separate foot, each with the nearest position on the
+/// limb.
 fn beside(body: &Body, segment: Segment, stations: &[(f64, f64)]) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
     let own = body.spheres.iter().filter(|s| s.segment == segment && !is_on_axis(s));
@@ -175,7 +176,7 @@ fn is_on_axis(sphere: &ContactSphere) -> bool {
     sphere.centre_from_lower_end_m.coords.xy().norm() < OFF_AXIS_M
 }
 
-/// What lies ahead of a segment that is longer ahead than it is high: a foot, from the heel to as far beyond its centre of gravity.
+/// Front part of a segment longer than high: a foot, from the heel to the same distance beyond its centre of gravity.
 fn sole(p: &SegmentProperties, radius: f64) -> Option<[Lump; 2]> {
     let half_m = p.cg_beside_m.x;
     let height_m = radius - p.cg_from_lower_end_m;
@@ -193,7 +194,7 @@ fn stations(body: &Body, segment: Segment) -> Vec<(f64, f64)> {
     stations
 }
 
-/// The radius of a limb's upper part: that of its highest sphere, else that of its inertia.
+/// Radius of a limb's upper end: that of its highest sphere, else from its inertia.
 fn limb_radius(body: &Body, segment: Segment) -> f64 {
     let highest = stations(body, segment).last().map(|s| s.1);
     highest.unwrap_or_else(|| SLIM * mean_radius(body.segment(segment)))

@@ -10,15 +10,15 @@ use occupant_core::vehicle::FrameMotion;
 
 use occupant_files::mcap::scene::compartment::{corners_m, square_m};
 
-/// Half side of the square that stands for an unbounded plane, m.
+/// Half side of the square drawn for an unbounded plane, m.
 pub const PATCH_M: f64 = 3.0;
 
 /// The body, the contacts and other force elements at one output.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// When, s.
+    /// Time, s.
     pub time_s: f64,
-    /// By segment: turns and moves from segment axes at the centre of gravity to vehicle axes.
+    /// By segment: pose of the segment axes at the centre of gravity in vehicle axes.
     pub poses: Vec<Isometry3<f64>>,
     /// Centres of the spheres, m.
     pub spheres_m: Vec<Point3<f64>>,
@@ -30,7 +30,7 @@ pub struct Snapshot {
     pub contacts: Vec<Contact>,
     /// Motion of the vehicle in space.
     pub vehicle: FrameMotion,
-    /// Motions of the other frames that anything to touch is fixed to.
+    /// Motions of the other frames with surfaces or solids.
     frames: Vec<(Frame, FrameMotion)>,
 }
 
@@ -55,7 +55,7 @@ impl Snapshot {
         }
     }
 
-    /// What there is to touch, and to see, as polygons: the surfaces, then all sides of the solids, then what is drawn alone, m.
+    /// Everything visible as polygons: the surfaces, then all faces of the solids, then scenery, m.
     pub fn polygons_m(&self, model: &Model) -> Vec<Vec<Point3<f64>>> {
         let faces = model.faces().iter().map(|face| self.corners_m(face));
         let solids = &model.setup().solids;
@@ -74,7 +74,7 @@ impl Snapshot {
         self.placed(face.frame, corners)
     }
 
-    /// Points of a frame in vehicle axes.
+    /// Points of a frame converted to vehicle axes.
     fn placed(&self, frame: Frame, corners: Vec<Point3<f64>>) -> Vec<Point3<f64>> {
         let to_space = |p: &Point3<f64>| match self.frames.iter().find(|(known, _)| *known == frame) {
             Some((_, motion)) => motion.point_to_space(p.coords),

@@ -3,14 +3,14 @@
 use nalgebra::Isometry3;
 use serde_json::{Value, json};
 
-/// Kinds of numbers, as glTF counts them.
+/// Component types of glTF.
 const FLOAT: u32 = 5126;
 const INDEX: u32 = 5125;
-/// What a block of numbers is for; none for times and turns.
+/// Targets of buffer views; none for times and rotations.
 const VERTICES: u32 = 34962;
 const TRIANGLES: u32 = 34963;
 
-/// A shape: corners, where its surface points at each, and three corners for each triangle.
+/// A triangle mesh: vertices, normals, and three indices per triangle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Mesh {
     pub(super) corners: Vec<[f32; 3]>,
@@ -18,7 +18,7 @@ pub(super) struct Mesh {
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-/// A file in the making.
+/// A file under construction.
 #[derive(Debug, Default)]
 pub(super) struct File {
     numbers: Vec<u8>,
@@ -30,7 +30,7 @@ pub(super) struct File {
 }
 
 impl File {
-    /// Adds a material of a colour and opacity, seen from both sides; its number.
+    /// Adds a two-sided material; its index.
     pub(super) fn material(&mut self, name: &str, [r, g, b, a]: [f64; 4]) -> usize {
         let mode = if a < 1.0 { "BLEND" } else { "OPAQUE" };
         let paint = json!({ "baseColorFactor": [r, g, b, a], "metallicFactor": 0.0, "roughnessFactor": 0.8 });
@@ -38,7 +38,7 @@ impl File {
         pushed(&mut self.materials, material)
     }
 
-    /// Adds shapes with their materials as one mesh; its number.
+    /// Adds shapes with their materials as one mesh; its index.
     pub(super) fn mesh(&mut self, name: &str, shapes: &[(Mesh, usize)]) -> usize {
         let primitives: Vec<Value> = shapes.iter().map(|(shape, material)| self.primitive(shape, *material)).collect();
         pushed(&mut self.meshes, json!({ "name": name, "primitives": primitives }))
@@ -55,7 +55,7 @@ impl File {
         json!({ "attributes": { "POSITION": position, "NORMAL": normal }, "indices": indices, "material": material })
     }
 
-    /// Adds rows of numbers, with the least and largest of each column; their number.
+    /// Adds rows of numbers, with the range of each column; their index.
     pub(super) fn floats<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str, target: Option<u32>) -> usize {
         let bytes: Vec<u8> = rows.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
         let view = self.view(&bytes, target);
@@ -78,7 +78,7 @@ impl File {
         pushed(&mut self.views, view)
     }
 
-    /// Adds a node; its number.
+    /// Adds a node; its index.
     pub(super) fn node(&mut self, name: &str, pose: &Isometry3<f64>, mesh: Option<usize>, children: &[usize]) -> usize {
         let mut node = json!({ "name": name, "translation": place(pose), "rotation": turn(pose) });
         if let Some(mesh) = mesh {
@@ -90,7 +90,7 @@ impl File {
         pushed(&mut self.nodes, node)
     }
 
-    /// The bytes of the file, with `root` as its scene.
+    /// Bytes of the file, with `root` as its scene.
     pub(super) fn finish(self, generator: &str, root: usize, animations: &[Value]) -> Vec<u8> {
         let mut text = json!({
             "asset": { "version": "2.0", "generator": generator },

@@ -23,13 +23,13 @@ use occupant_files::base::{Failure, program};
 use occupant_files::mcap::scene::compartment::{color_of, corners_m, frame_name, scenery_color};
 use occupant_files::results::Results;
 
-/// No more times are written; of a run with more outputs, every second or third and so on.
+/// Largest number of times; of a run with more outputs, every second or third is written.
 const MOST: usize = 2000;
 
-/// Where the bodies and frames are at the times that are written.
+/// Poses of bodies and frames at the times written.
 struct Motion {
     times_s: Vec<f32>,
-    /// By time, then by segment, from the vehicle.
+    /// By time, then by segment, relative to the vehicle.
     segments: Vec<Vec<Isometry3<f64>>>,
     /// The same of frames besides the vehicle.
     frames: BTreeMap<String, Vec<Isometry3<f64>>>,
@@ -91,7 +91,7 @@ fn watched(results: &Results) -> Result<Motion, Failure> {
     Ok(motion)
 }
 
-/// The frames besides the vehicle that anything is fixed to, in space.
+/// Frames besides the vehicle that carry anything, in space.
 fn frames_of(sample: &Sample<'_>) -> Vec<(String, Isometry3<f64>)> {
     let setup = sample.model.setup();
     let touched = setup.surfaces.iter().map(|s| s.frame).chain(setup.solids.iter().map(|s| s.frame));
@@ -112,14 +112,14 @@ fn isometry(motion: &FrameMotion) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(motion.origin_m), UnitQuaternion::from_rotation_matrix(&turned))
 }
 
-/// From space, forward, left, up, to glTF's axes: Z ahead, X to the left, Y up.
+/// From space axes (forward, left, up) to glTF axes: Z forward, X left, Y up.
 fn upright() -> Isometry3<f64> {
     let [ahead, left, up] = [Vector3::z(), Vector3::x(), Vector3::y()];
     let turned = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[ahead, left, up]));
     Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_rotation_matrix(&turned))
 }
 
-/// A node for each segment with its parts.
+/// A node per segment with its parts.
 fn bodies(file: &mut File, model: &Model, motion: &Motion) -> Vec<usize> {
     let body = model.body();
     let parts = parts(body);
@@ -143,7 +143,7 @@ fn bodies(file: &mut File, model: &Model, motion: &Motion) -> Vec<usize> {
     body.tree.segments().map(&mut node).collect()
 }
 
-/// Surfaces, solids and what is drawn alone by the frame that they are fixed to: names and meshes.
+/// Surfaces, solids and scenery by their frame: names and meshes.
 fn compartment(file: &mut File, model: &Model) -> BTreeMap<String, Vec<(String, usize)>> {
     let setup = model.setup();
     let surfaces = setup.surfaces.iter().zip(model.faces());
@@ -171,7 +171,7 @@ fn compartment(file: &mut File, model: &Model) -> BTreeMap<String, Vec<(String, 
     frames
 }
 
-/// The motion of nodes over the times; none if none of them moves.
+/// Motion of nodes over time; none if none moves.
 fn animation(file: &mut File, name: &str, input: usize, moving: &[(usize, &[Isometry3<f64>])]) -> Option<Value> {
     let (mut samplers, mut channels) = (Vec::new(), Vec::new());
     let moves = |poses: &[Isometry3<f64>]| poses.iter().any(|pose| *pose != poses[0]);
@@ -189,7 +189,7 @@ fn animation(file: &mut File, name: &str, input: usize, moving: &[(usize, &[Isom
     (!samplers.is_empty()).then(|| json!({ "name": name, "samplers": samplers, "channels": channels }))
 }
 
-/// Turns whose neighbours are written with the nearer of their two signs.
+/// Quaternions with signs chosen for continuity.
 fn turns(poses: &[Isometry3<f64>]) -> Vec<[f32; 4]> {
     let mut before = [0.0; 4];
     let next = |pose| {

@@ -7,11 +7,11 @@ use nalgebra::{Point3, Vector3};
 use super::file::Mesh;
 use crate::body::Lump;
 
-/// Directions round the long axis and from end to end.
+/// Number of directions around the long axis and from end to end.
 const ROUND: u32 = 20;
 const ALONG: u32 = 12;
 
-/// The convex hull of two ellipsoids: to each direction the point that lies farthest that way.
+/// The convex hull of two ellipsoids, by its support points.
 pub(super) fn hull(ends: &[Lump; 2]) -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=ALONG {
@@ -35,7 +35,7 @@ pub(super) fn hull(ends: &[Lump; 2]) -> Mesh {
     mesh
 }
 
-/// Axes whose third leads from one end to the other.
+/// Axes whose third is the line between the ends.
 fn axes(ends: &[Lump; 2]) -> nalgebra::Rotation3<f64> {
     let along = ends[1].centre_m - ends[0].centre_m;
     nalgebra::Rotation3::rotation_between(&Vector3::z(), &along).unwrap_or_else(nalgebra::Rotation3::identity)

@@ -20,7 +20,7 @@ pub struct RunCurves {
     pub histories: Histories,
 }
 
-/// A measured signal to draw over a channel.
+/// A measured signal drawn over a channel.
 #[derive(Clone, Debug)]
 pub struct Overlay {
     /// The channel.
@@ -31,7 +31,7 @@ pub struct Overlay {
     pub pair: Pair,
 }
 
-/// `channel=value unit`: a level to draw where the channel is.
+/// `channel=value unit`: a level drawn in the plot of a channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitArgument {
     /// The channel.
@@ -65,7 +65,7 @@ impl FromStr for LimitArgument {
 }
 
 impl LimitArgument {
-    /// The level in a shown unit.
+    /// The level in a displayed unit.
     ///
     /// # Errors
     /// A unit of another kind.
@@ -85,7 +85,7 @@ impl LimitArgument {
     }
 }
 
-/// What figures are made of.
+/// Data of the figures.
 #[derive(Clone, Debug)]
 pub struct Material<'a> {
     /// Runs, at least one.
@@ -94,7 +94,7 @@ pub struct Material<'a> {
     pub overlays: &'a [Overlay],
     /// Limits to be drawn.
     pub limits: &'a [LimitArgument],
-    /// Channel across; time if absent.
+    /// Channel on the horizontal axis; time if absent.
     pub x: Option<&'a str>,
     /// Units.
     pub units: UnitChoice,
@@ -175,7 +175,7 @@ fn common_unit(plot: &Plot, runs: &[RunCurves]) -> Result<Unit, String> {
     }
 }
 
-/// What distinguishes this curve from the others of its figure.
+/// Label that distinguishes this curve from the others of its figure.
 fn label(entry: &Entry, run: &RunCurves, plot: &Plot, material: &Material<'_>) -> String {
     let measured = material.overlays.iter().any(|o| plot.entries.iter().any(|e| e.channel == o.channel));
     match (run.label.as_str(), plot.entries.len()) {

@@ -2,10 +2,10 @@
 
 use super::figure::drawable;
 
-/// Lines without gaps, in the drawing's units; a point that stands alone is a line of one.
+/// Polylines without gaps, in drawing units; an isolated point is a line of one.
 ///
-/// `to_page` places a point. Curves with far more points than `columns` keep, in each column, first, least, largest and last:
-/// what the eye sees stays the same.
+/// `to_page` converts a point. Curves with many more points than `columns` keep the first, least, largest and last in
+/// each column: they look the same.
 pub fn strokes(points: &[[f64; 2]], columns: usize, to_page: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let parts = points.split(|point| !drawable(point)).filter(|part| !part.is_empty());
     let strokes = parts.map(|part| part.iter().map(|point| to_page(*point)).collect::<Vec<_>>());
@@ -13,7 +13,7 @@ pub fn strokes(points: &[[f64; 2]], columns: usize, to_page: impl Fn([f64; 2]) -
     strokes.map(|stroke| if dense { thinned(&stroke, columns) } else { stroke }).collect()
 }
 
-/// First, least, largest and last of each half unit across; a line that turns back stays as it is.
+/// First, least, largest and last of each half unit of width; a line that turns back is unchanged.
 fn thinned(stroke: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     let (Some(first), Some(last)) = (stroke.first(), stroke.last()) else {
         return Vec::new();

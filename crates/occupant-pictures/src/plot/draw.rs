@@ -16,10 +16,10 @@ const GRID: &str = "stroke=\"#e4e4e4\" stroke-width=\"1\"";
 const ZERO: &str = "stroke=\"#888888\" stroke-width=\"1\"";
 const FRAME: &str = "fill=\"none\" stroke=\"#444444\" stroke-width=\"1\"";
 
-/// Words at an axis upward take no more than this part of the figure's width.
+/// Largest fraction of the figure's width for words at the vertical axis.
 const WORDS: f64 = 0.42;
 
-/// Height of what stands below the axes of a figure this wide.
+/// Height of the area below the axes of a figure of this width.
 pub fn legend_height(figure: &Figure, width: f64) -> f64 {
     Legend::new(figure, width - 2.0 * EDGE).height()
 }
@@ -33,7 +33,7 @@ struct Page {
     y: Scale,
 }
 
-/// Draws a figure into a rectangle; `below` is the room for the legend, as figures in one row share it.
+/// Draws a figure into a rectangle; `below` is the height of the legend, common to a row of figures.
 pub fn draw(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height]: [f64; 2], below: f64) {
     let title = shortened(&figure.title, TITLE, Weight::Bold, width - 2.0 * EDGE);
     let style = Text { size: TITLE, weight: Weight::Bold, anchor: Anchor::Middle, ..Text::default() };
@@ -142,18 +142,18 @@ impl Page {
     }
 }
 
-/// The line of a tick across the figure.
+/// Grid line of a tick.
 fn grid(scale: &Scale, tick: f64) -> &'static str {
     if tick == 0.0 && !scale.has_words() { ZERO } else { GRID }
 }
 
-/// Words of an axis that fit into a width.
+/// Words of an axis, shortened to a width.
 fn short_words(words: &[String], width: f64) -> Vec<String> {
     let short = |word: &String| shortened(word, TICK, Weight::Regular, width);
     words.iter().map(short).collect()
 }
 
-/// The axis across, with as many ticks as have room beside each other.
+/// The horizontal axis, with as many ticks as fit.
 fn across(figure: &Figure, range: [f64; 2], room: f64) -> Scale {
     let words = &figure.x.words;
     if !words.is_empty() {
@@ -169,7 +169,7 @@ fn across(figure: &Figure, range: [f64; 2], room: f64) -> Scale {
     (2..=8).rev().map(scale).find(fits).unwrap_or_else(|| scale(1))
 }
 
-/// Width of the widest figure.
+/// Width of the widest tick label.
 fn widest(scale: &Scale) -> f64 {
     let width = |t: &f64| font::width(&scale.figures(*t), TICK, Weight::Regular);
     scale.ticks.iter().map(width).fold(0.0, f64::max)

@@ -5,30 +5,30 @@
 pub struct Figure {
     /// Heading.
     pub title: String,
-    /// Across.
+    /// Horizontal axis.
     pub x: Axis,
-    /// Upward.
+    /// Vertical axis.
     pub y: Axis,
     /// Curves in the order of the legend.
     pub curves: Vec<Curve>,
-    /// Limits on Y.
+    /// Limits on the vertical axis.
     pub limits: Vec<Limit>,
-    /// What stands in the middle if there is no curve.
+    /// Text in the middle if there is no curve.
     pub empty: String,
 }
 
 /// An axis.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// What it shows.
+    /// Name of the quantity.
     pub name: String,
     /// Symbol of the unit.
     pub unit: String,
-    /// Words that stand at 0, 1, 2, …, instead of figures; empty for an axis of numbers. Upward they go down the page.
+    /// Words at 0, 1, 2, … instead of numbers; empty for an axis of numbers. On the vertical axis they run downward.
     pub words: Vec<String>,
-    /// Least and largest value that an axis of numbers shows whatever the curves need.
+    /// Values that a numeric axis always includes.
     pub includes: Option<[f64; 2]>,
-    /// Whether points stand at the decimal logarithms of their values.
+    /// Whether points are given as decimal logarithms.
     pub is_of_powers: bool,
 }
 
@@ -38,7 +38,7 @@ impl Axis {
         Axis { name: name.into(), unit: unit.into(), words: Vec::new(), includes: None, is_of_powers: false }
     }
 
-    /// A range that covers `range` and what is to be shown at any rate.
+    /// The range extended by the values always included.
     fn widened(&self, [low, high]: [f64; 2]) -> [f64; 2] {
         self.includes.map_or([low, high], |[from, to]| [low.min(from), high.max(to)])
     }
@@ -52,9 +52,9 @@ impl Axis {
 /// A curve: points in the units of the axes, a gap where a number is not finite.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// For the legend.
+    /// Label in the legend.
     pub label: String,
-    /// How it is drawn.
+    /// Its style.
     pub style: Style,
     /// Points in their order.
     pub points: Vec<[f64; 2]>,
@@ -66,16 +66,16 @@ impl Curve {
         Curve { label: label.into(), style, points }
     }
 
-    /// The points that can be drawn.
+    /// The drawable points.
     pub fn drawn(&self) -> impl Iterator<Item = &[f64; 2]> {
         self.points.iter().filter(|point| drawable(point))
     }
 }
 
-/// How a curve is drawn.
+/// Style of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// As in CSS.
+    /// CSS colour.
     pub colour: &'static str,
     /// SVG dash pattern; solid if empty.
     pub dash: &'static str,
@@ -85,7 +85,7 @@ pub struct Style {
     pub mark: Mark,
 }
 
-/// What stands at the points of a curve.
+/// How the points of a curve are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
     /// A line through them.
@@ -93,34 +93,35 @@ pub enum Mark {
     Line,
     /// Points alone.
     Dots,
-    /// They go round an area.
+    /// A filled area around them.
     Area,
 }
 
 /// A level that should not be passed.
 #[derive(Clone, Debug)]
 pub struct Limit {
-    /// For the legend.
+    /// Label in the legend.
     pub label: String,
-    /// Level in the unit of Y.
+    /// Level in the unit of the vertical axis.
     pub level: f64,
 }
 
-/// Colours that most colour-blind people tell apart (Okabe and Ito, 2008), their yellow left out for white paper.
+/// Colours that most colour-blind people can distinguish (Okabe and Ito, 2008), without their yellow, which is weak on
+/// white paper.
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#666666"];
 const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
-/// Of a limit.
+/// Style of a limit.
 pub const LIMIT: Style = Style { colour: "#c00000", dash: "5 3", width: 1.1, mark: Mark::Line };
 
 impl Style {
-    /// How many colours there are.
+    /// Number of colours.
     pub const COLOURS: usize = COLOURS.len();
-    /// Dash patterns, the solid line counted.
+    /// Number of dash patterns, including the solid line.
     pub const DASHES: usize = DASHES.len();
-    /// Styles that differ.
+    /// Number of different styles.
     pub const DISTINCT: usize = COLOURS.len() * DASHES.len();
 
-    /// The style of a curve: colours by `colour`, dashes by `dash`; colours that come round again bring the next dash.
+    /// Style of a curve: colours by `colour`, dashes by `dash`; when colours repeat, the dash changes.
     pub fn of(colour: usize, dash: usize) -> Self {
         let dash = dash + colour / COLOURS.len();
         Style { dash: DASHES[dash % DASHES.len()], ..Style::line(COLOURS[colour % COLOURS.len()], 1.5) }
@@ -131,7 +132,7 @@ impl Style {
         Style { colour: "#000000", dash: DASHES[dash % DASHES.len()], width: 1.2, mark: Mark::Line }
     }
 
-    /// A solid line of any width: a bar, a whisker.
+    /// A solid line of this width: a bar, a whisker.
     pub fn line(colour: &'static str, width: f64) -> Self {
         Style { colour, dash: "", width, mark: Mark::Line }
     }
@@ -146,7 +147,7 @@ impl Style {
         Style { mark: Mark::Area, ..Style::line(colour, 0.0) }
     }
 
-    /// As attributes of SVG.
+    /// SVG attributes.
     pub fn attributes(&self) -> String {
         if self.mark == Mark::Area {
             return format!("fill=\"{}\" fill-opacity=\"0.7\" stroke=\"none\"", self.colour);
@@ -163,9 +164,9 @@ impl Style {
     }
 }
 
-/// Room beyond a limit, over its level.
+/// Space above a limit, relative to its level.
 const LIMIT_ROOM: f64 = 0.02;
-/// Largest magnitude that is drawn; greater numbers count as none.
+/// Largest magnitude that is drawn; larger numbers are left out.
 const GREATEST: f64 = 1e300;
 
 /// Whether a point can be drawn.
@@ -179,7 +180,7 @@ impl Figure {
         Figure { title: title.to_owned(), x, y, curves, limits: Vec::new(), empty: "nothing to draw".to_owned() }
     }
 
-    /// The limits that can be drawn.
+    /// The drawable limits.
     pub fn drawn_limits(&self) -> impl Iterator<Item = &Limit> {
         self.limits.iter().filter(|limit| drawable(&[0.0, limit.level]))
     }

@@ -4,7 +4,7 @@ use super::figure::{Figure, LIMIT, Mark, Style};
 use crate::font::Weight;
 use crate::{Svg, Text, font};
 
-/// Size of its letters.
+/// Font size.
 const SIZE: f64 = 11.0;
 /// Height of a row.
 const ROW: f64 = 16.0;
@@ -21,14 +21,14 @@ struct Entry {
     row: usize,
 }
 
-/// A legend set to a width.
+/// A legend laid out for a width.
 pub struct Legend {
     entries: Vec<Entry>,
     rows: usize,
 }
 
 impl Legend {
-    /// Of a figure's curves and limits. A lone curve whose label says no more than the title needs none.
+    /// Legend of a figure's curves and limits; empty for a single curve whose label repeats the title.
     pub fn new(figure: &Figure, width: f64) -> Self {
         let curves = figure.curves.iter().map(|c| (c.label.as_str(), c.style));
         let limits = figure.limits.iter().map(|l| (l.label.as_str(), LIMIT));
@@ -70,7 +70,7 @@ impl Legend {
     }
 }
 
-/// A text that fits into a width; one that is too long loses its middle.
+/// A text shortened in its middle to fit a width.
 pub fn shortened(text: &str, size: f64, weight: Weight, width: f64) -> String {
     if font::width(text, size, weight) <= width {
         return text.to_owned();

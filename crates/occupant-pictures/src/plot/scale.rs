@@ -2,26 +2,26 @@
 
 use placed_text::trimmed;
 
-/// An axis' range, its ticks, and how they are written.
+/// Range of an axis, its ticks, and their format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     /// Least and largest value shown.
     pub range: [f64; 2],
     /// Ticks, increasing.
     pub ticks: Vec<f64>,
-    /// Power of ten that stands in the axis' label, for the ticks' sake.
+    /// Power of ten moved from the ticks to the axis label.
     pub exponent: i32,
     decimals: usize,
-    /// What stands at the ticks 0, 1, 2, … instead of figures.
+    /// Words at the ticks 0, 1, 2, … instead of numbers.
     words: Vec<String>,
-    /// Whether ticks are the decimal logarithms of what stands at them.
+    /// Whether ticks are decimal logarithms of their labels.
     is_of_powers: bool,
 }
 
 impl Scale {
     /// A scale with about `count` ticks that covers a range and ends on ticks.
     ///
-    /// A range without extent (a constant) is opened round its value; zero is shown where it is not far from the values.
+    /// A range without extent (a constant) is widened around its value; zero is included if it is near.
     pub fn new([low, high]: [f64; 2], count: usize) -> Self {
         let [low, high] = opened(low, high);
         let step = round_step((high - low) / count.max(1) as f64);
@@ -31,7 +31,7 @@ impl Scale {
         Self::counted(first, last, step)
     }
 
-    /// A scale for the axis across: the range as it is, ticks inside it.
+    /// A horizontal scale: the range unchanged, ticks inside it.
     pub fn inside([low, high]: [f64; 2], count: usize) -> Self {
         let size = low.abs().max(high.abs());
         let [low, high] = if high - low > SMALLEST.max(1e-12 * size) { [low, high] } else { opened(low, high) };
@@ -41,7 +41,7 @@ impl Scale {
         Scale { range: [low, high], ..Self::counted(first, last, step) }
     }
 
-    /// A scale of words at 0, 1, 2, …; `downward` if the first is to stand at its end.
+    /// A scale of words at 0, 1, 2, …; `downward` puts the first at its end.
     pub fn of_words(words: Vec<String>, downward: bool) -> Self {
         let ticks: Vec<f64> = (0..words.len()).map(|i| i as f64).collect();
         let beyond = words.len().max(1) as f64 - 0.5;
@@ -55,7 +55,7 @@ impl Scale {
         }
     }
 
-    /// A scale of decimal logarithms: ticks at powers of ten, and at 2 and 5 times these where there are few.
+    /// A logarithmic scale: ticks at powers of ten, and at 2 and 5 times these if there are few.
     pub fn of_powers([low, high]: [f64; 2]) -> Self {
         let [low, high] = if high - low > 1e-9 { [low, high] } else { [low - 0.1, high + 0.1] };
         let times: &[f64] = if high - low > 2.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
@@ -65,7 +65,7 @@ impl Scale {
         Scale { range: [low, high], ticks, exponent: 0, decimals: 0, words: Vec::new(), is_of_powers: true }
     }
 
-    /// Whether words stand at its ticks.
+    /// Whether its ticks have words.
     pub fn has_words(&self) -> bool {
         !self.words.is_empty()
     }
@@ -90,7 +90,7 @@ impl Scale {
         }
     }
 
-    /// A tick in figures, without its power of ten, or its word.
+    /// Label of a tick: a number without its power of ten, or a word.
     pub fn figures(&self, tick: f64) -> String {
         if self.has_words() {
             // ticks of words are 0, 1, 2, …
@@ -109,7 +109,7 @@ impl Scale {
         text.replace('-', if is_zero { "" } else { "−" })
     }
 
-    /// Where a value stands, 0 at the range's begin and 1 at its end.
+    /// Position of a value, 0 at the start of the range and 1 at its end.
     pub fn place(&self, value: f64) -> f64 {
         let [low, high] = self.range;
         // halves, so that no difference overflows
@@ -120,7 +120,7 @@ impl Scale {
 /// Smallest size that counts as different from zero.
 const SMALLEST: f64 = 1e-290;
 
-/// A range with an extent, zero included if it is near.
+/// A range with nonzero extent, including zero if it is near.
 fn opened(low: f64, high: f64) -> [f64; 2] {
     let size = low.abs().max(high.abs());
     // steps between smaller values would not be doubles
@@ -139,7 +139,7 @@ fn opened(low: f64, high: f64) -> [f64; 2] {
     }
 }
 
-/// The least of 1, 2, 5 times a power of ten that is not below `step`.
+/// The least of 1, 2, 5 times a power of ten that is at least `step`.
 fn round_step(step: f64) -> f64 {
     let power = 10_f64.powi(step.log10().floor() as i32);
     let times = step / power;

@@ -6,20 +6,20 @@ use super::legend::shortened;
 use crate::font::Weight;
 use crate::{Svg, Text};
 
-/// A sheet's words.
+/// Texts of a sheet.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// Heading.
     pub title: String,
-    /// Lines below it, small.
+    /// Small lines below it.
     pub lines: Vec<String>,
-    /// Figures beside each other.
+    /// Figures per row.
     pub columns: usize,
 }
 
 /// Width of a figure, and its height without legend.
 const SIZE: [f64; 2] = [430.0, 300.0];
-/// Size of a figure that has a file of its own.
+/// Size of a figure in its own file.
 const ALONE: [f64; 2] = [760.0, 460.0];
 const EDGE: f64 = 16.0;
 const TITLE: f64 = 18.0;

@@ -13,16 +13,16 @@ use occupant_files::base::customary::{
     ACCELERATIONS, CONTACTS, ENERGIES, ENERGIES_OF_BODY, FRONTAL_CONTACTS, VEHICLE, WEBBING,
 };
 
-/// A plot that is wished for.
+/// A requested plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
     /// Heading.
     pub title: String,
-    /// What Y measures.
+    /// Label of the vertical axis.
     pub axis: String,
-    /// What is drawn.
+    /// The curves.
     pub entries: Vec<Entry>,
-    /// What stands there if a scenario has none of it.
+    /// Text if a scenario has none of them.
     pub empty: String,
 }
 
@@ -31,16 +31,16 @@ pub struct Plot {
 pub struct Entry {
     /// The channel.
     pub channel: String,
-    /// What the legend says.
+    /// Label in the legend.
     pub label: String,
 }
 
-/// Energies of several runs over each other: the first of them.
+/// Number of energies in plots of several runs.
 const FEW_ENERGIES: usize = 4;
-/// Spheres of a body that has none of the usual names: the first of them.
+/// Number of spheres of a body without the usual names.
 const FEW_SPHERES: usize = 8;
 
-/// The plots of a model; of several runs over each other, the energies that matter most.
+/// The plots of a model; for several runs only the main energies.
 pub fn standard(model: &Model, several: bool) -> Vec<Plot> {
     let bodies = model.body().tree.bodies();
     let is_person = |row: &&BodyRow| bodies.len() == 1 || row.landmarks != Landmarks::NONE;
@@ -72,12 +72,12 @@ fn of_person(model: &Model, row: &BodyRow, several: bool) -> Vec<Plot> {
     plots
 }
 
-/// A name without that of the body before it.
+/// A name without the prefix of its body.
 fn after<'n>(row: &BodyRow, name: &'n str) -> &'n str {
     name.strip_prefix(row.name).map_or(name, |own| own.trim_start_matches('.'))
 }
 
-/// The channels of a body that are like these, with the words of their curves.
+/// Channels of a body that match these, with the names of their curves.
 fn own(model: &Model, row: &BodyRow, curves: &[(&str, &str)]) -> Vec<(String, String)> {
     let of = |(pattern, words): &(&str, &str)| -> Vec<(String, String)> {
         let found = matching(model, pattern).into_iter().filter_map(|channel| {
@@ -90,7 +90,7 @@ fn own(model: &Model, row: &BodyRow, curves: &[(&str, &str)]) -> Vec<(String, St
     curves.iter().flat_map(of).collect()
 }
 
-/// Forces on head, chest and knees by their usual names; of a body without any of them those on its first spheres.
+/// Forces on head, chest and knees by their usual names; for a body without them, on its first spheres.
 fn contacts(model: &Model, row: &BodyRow) -> Vec<(String, String)> {
     let all = own(model, row, CONTACTS);
     let usual = |name: &str| FRONTAL_CONTACTS.iter().position(|(_, words)| *words == name.replace('_', " "));

@@ -9,17 +9,17 @@ use crate::svg::{Anchor, Svg, Text};
 
 /// Colour of lines and labels.
 const COLOR: &str = "#0f5c8a";
-/// Shorter in the picture than this part of itself, a distance is drawn in another view.
+/// Fraction of its length below which a distance is drawn in another view instead.
 const SEEN: f64 = 0.9;
 /// Height of a label, user units.
 const SIZE: f64 = 9.5;
-/// Labels stand so far from a line, and move so far at once to keep clear, user units.
+/// Distance of labels from a line, and step by which they move to avoid overlap, user units.
 const ASIDE: f64 = 3.0;
 const STEP: f64 = 4.0;
-/// Places that are tried for a label.
+/// Number of positions tried for a label.
 const TRIES: i32 = 60;
 
-/// Draws the distances that lie in the plane of a view.
+/// Draws the distances in the plane of a view.
 pub fn draw(svg: &mut Svg, pen: &Pen<'_>, view: View, corner: [f64; 2], corner_m: [f64; 2]) {
     let mut taken: Vec<[f64; 4]> = Vec::new();
     for own in &pen.strip.dimensions {
@@ -49,13 +49,13 @@ pub fn draw(svg: &mut Svg, pen: &Pen<'_>, view: View, corner: [f64; 2], corner_m
     }
 }
 
-/// The view in which a distance is read: across the vehicle from ahead, all else from the side.
+/// The view in which a distance is drawn: lateral ones from the front, all others from the side.
 fn own_view([a, b]: &[[f64; 3]; 2]) -> View {
     let across = (b[1] - a[1]).abs();
     if across > (b[0] - a[0]).abs().max((b[2] - a[2]).abs()) { View::Front } else { View::Side }
 }
 
-/// Writes a label beside the middle of a line, moved away from those that stand already.
+/// Writes a label beside the middle of a line, clear of earlier labels.
 fn label(svg: &mut Svg, text: &str, ends: [[f64; 2]; 2], taken: &mut Vec<[f64; 4]>) {
     let width = font::width(text, SIZE, Weight::Regular);
     let middle = [0, 1].map(|i| 0.5 * (ends[0][i] + ends[1][i]));

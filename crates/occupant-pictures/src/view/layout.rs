@@ -5,36 +5,36 @@ use super::projection::View;
 use super::window::Window;
 use crate::font::{self, Weight};
 
-/// Most times side by side; more begin another block below.
+/// Largest number of times per row.
 const COLUMNS: usize = 6;
 /// Width of the widest panel of a strip.
 pub const PANEL: f64 = 230.0;
-/// The same of a film.
+/// Width of the widest panel of a film.
 pub const FILM_PANEL: f64 = 660.0;
-/// The same of a strip with distances to read.
+/// Width of the widest panel of a strip with dimensions.
 pub const DIMENSIONS_PANEL: f64 = 760.0;
-/// Room on the left for the names of the views.
+/// Space on the left for the names of the views.
 pub const LEFT: f64 = 84.0;
-/// Room beside the title and the legend.
+/// Space beside the title and the legend.
 pub const MARGIN: f64 = 12.0;
-/// Room on top for the title.
+/// Space on top for the title.
 const TOP: f64 = 52.0;
-/// Room above a block for its times.
+/// Space above a block for its times.
 pub const TIMES: f64 = 24.0;
 /// Between panels.
 const GAP: f64 = 8.0;
-/// Room below for scales and legend.
+/// Space below for scales and legend.
 const FOOT: f64 = 74.0;
-/// The legend wants this much.
+/// Least width, for the legend.
 const LEAST_WIDTH: f64 = 760.0;
 /// The title.
 pub const HEADING: (f64, Weight) = (15.0, Weight::Bold);
 
-/// The measures of a sheet, in user units.
+/// Layout of a sheet, in user units.
 pub struct Layout {
-    /// User units a metre.
+    /// User units per metre.
     pub scale: f64,
-    /// What the panels show.
+    /// The region shown in the panels.
     pub window: Window,
     /// Width of the sheet.
     pub width: f64,
@@ -48,7 +48,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Of a sheet that shows so many of the moments, the widest of its panels so wide.
+    /// Layout of a sheet with this many moments, its widest panel this wide.
     pub fn of(strip: &Strip<'_>, shown: usize, panel: f64) -> Self {
         let window = Window::of(strip);
         let widths = strip.views.iter().map(|v| window.size_m(*v)[0]);
@@ -65,7 +65,7 @@ impl Layout {
         layout
     }
 
-    /// Upper left corner, width and height of the panel in a row of a moment, counted among those shown, centred in its column.
+    /// Upper left corner, width and height of a moment's panel in a row, centred in its column.
     pub fn panel(&self, moment: usize, row: usize) -> ([f64; 2], [f64; 2]) {
         let size = self.window.size_m(self.views[row]).map(|m| m * self.scale);
         let [x, y] = self.head(moment);
@@ -73,18 +73,18 @@ impl Layout {
         ([x + aside, y + TIMES + self.rows_above(row)], size)
     }
 
-    /// Upper left corner of the column of a moment.
+    /// Upper left corner of a moment's column.
     pub fn head(&self, moment: usize) -> [f64; 2] {
         let (block, column) = (moment / self.columns, moment % self.columns);
         [LEFT + column as f64 * (self.column + GAP), TOP + block as f64 * self.block]
     }
 
-    /// Whether a moment is the first of its block.
+    /// Whether a moment is the first of its row block.
     pub fn begins_block(&self, moment: usize) -> bool {
         moment.is_multiple_of(self.columns)
     }
 
-    /// Top of the room for scales and legend.
+    /// Top of the area for scales and legend.
     pub fn foot(&self) -> f64 {
         self.height - FOOT
     }

@@ -26,7 +26,7 @@ pub fn name_row(svg: &mut Svg, view: View, y: f64) {
     }
 }
 
-/// The line of scales and signs, and the small print.
+/// Scales, symbols, and the caption.
 pub fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
     let y = layout.foot() + 22.0;
     let mut row = Row { svg, x: MARGIN, y, end: layout.width - MARGIN };
@@ -52,14 +52,14 @@ pub fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
         let line = format!("stroke=\"{SURFACE}\"");
         row.stroke(&format!("{line} stroke-width=\"1.6\""), "surface, edge-on");
         let dashed = format!("{line} stroke-width=\"0.8\" stroke-dasharray=\"3 2\"");
-        row.stroke(&dashed, "surface before the body");
+        row.stroke(&dashed, "surface in front of the body");
     }
     let print = Text { size: 9.5, fill: "#666666", ..SMALL };
     let at = [MARGIN, layout.height - 12.0];
     svg.text(at, &pen.strip.origin, &print);
 }
 
-/// Signs with labels in lines that grow to the right.
+/// Symbols with labels, in lines filled from the left.
 struct Row<'s> {
     svg: &'s mut Svg,
     x: f64,
@@ -88,7 +88,7 @@ impl Row<'_> {
         self.svg.segment(from, [from[0] + 24.0, from[1]], look);
     }
 
-    /// Writes the label of a sign of this length and says where that begins.
+    /// Writes the label of a symbol of this length; the start of the symbol.
     fn sign(&mut self, length: f64, label: &str) -> [f64; 2] {
         let wide = length + 6.0 + font::width(label, SMALL.size, SMALL.weight);
         if self.x + wide > self.end {
@@ -101,7 +101,7 @@ impl Row<'_> {
     }
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `most`.
+/// The largest of 1, 2, 5 times a power of ten that is at most `most`.
 fn round_length(most: f64) -> f64 {
     let power = 10.0_f64.powf(most.log10().floor());
     let steps = [5.0, 2.0, 1.0].map(|s| s * power);

@@ -18,15 +18,15 @@ pub use sheet::{draw, frames};
 
 use super::body::Snapshot;
 
-/// What is drawn.
+/// A strip of pictures.
 pub struct Strip<'a> {
     /// The model.
     pub model: &'a Model,
     /// The moments, in order.
     pub moments: Vec<Snapshot>,
-    /// The rows.
+    /// The views, one per row.
     pub views: Vec<View>,
-    /// Small print: where the pictures come from.
+    /// Caption: origin of the pictures.
     pub origin: String,
     /// Distances drawn in the pictures of the first moment.
     pub dimensions: Vec<Measured>,
@@ -35,10 +35,10 @@ pub struct Strip<'a> {
 /// A distance or an angle, drawn as a line between its ends with its label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// What it is and how much, such as `H30 250`.
+    /// Its label, such as `H30 250`.
     pub label: String,
     /// Its ends, vehicle axes, m.
     pub ends_m: [[f64; 3]; 2],
-    /// Whether it is an angle, of a line.
+    /// Whether it is the angle of a line.
     pub is_angle: bool,
 }

@@ -11,39 +11,39 @@ use super::projection::View;
 use crate::body::{Part, Snapshot, Tone};
 use crate::svg::{Svg, number};
 
-/// A surface whose normal is this near to the picture's plane is drawn as a line.
+/// Normal component towards the viewer below which a surface is drawn as a line.
 const EDGE_ON: f64 = 0.02;
 /// Colours of the drawing.
 pub const SURFACE: &str = "#5b6770";
-/// A line that pulls.
+/// A line under tension.
 pub const TAUT: &str = "#c2410c";
-/// A line that does not.
+/// A slack line.
 pub const SLACK: &str = "#8a8a8a";
 /// Sections of bags.
 pub const BAG: &str = "#7c6f9c";
 /// Contact points and forces.
 pub const CONTACT: &str = "#be123c";
-/// Length of an arrow's head over its width.
+/// Length of an arrow's head relative to its width.
 const SLENDER: f64 = 2.2;
 
-/// What a panel needs to know besides its moment.
+/// Data of a panel besides its moment.
 pub struct Pen<'a> {
-    /// The strip that it is of.
+    /// Its strip.
     pub strip: &'a Strip<'a>,
     /// The parts of the body.
     pub parts: &'a [Part],
-    /// User units a metre.
+    /// User units per metre.
     pub scale: f64,
-    /// User units a newton; none if nothing touches.
+    /// User units per newton; none without contacts.
     pub per_n: Option<f64>,
 }
 
-/// Turns picture places into the sheet's.
+/// Converts picture coordinates to the sheet's.
 #[derive(Clone, Copy)]
 struct Place {
     view: View,
     scale: f64,
-    /// Sheet place of the picture's origin.
+    /// Sheet position of the picture's origin.
     origin: [f64; 2],
 }
 
@@ -61,7 +61,7 @@ impl Place {
     }
 }
 
-/// Draws a panel; `corner` is the sheet place of the picture place `corner_m`.
+/// Draws a panel; `corner` is the sheet position of the picture point `corner_m`.
 pub fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, corner: [f64; 2], corner_m: [f64; 2]) {
     let place = Place { view, scale: pen.scale, origin: [0, 1].map(|i| corner[i] - pen.scale * corner_m[i]) };
     let (before, behind) = surfaces(pen, moment, view);
@@ -78,10 +78,10 @@ pub fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, corner:
     draw_contacts(svg, &place, pen, moment);
 }
 
-/// A surface, or a side of a solid.
+/// A surface, or a face of a solid.
 type Polygon = Vec<Point3<f64>>;
 
-/// Those before the pelvis, or the first segment of a part without one, and the others.
+/// Surfaces in front of the pelvis (or of the first segment, without one), and the others.
 fn surfaces(pen: &Pen<'_>, moment: &Snapshot, view: View) -> (Vec<Polygon>, Vec<Polygon>) {
     let at = pen.strip.model.body().tree.landmarks().pelvis.map_or(0, |pelvis| pelvis.index());
     let pelvis = moment.poses[at].translation.vector;
@@ -110,7 +110,7 @@ fn draw_surface(svg: &mut Svg, place: &Place, corners: &[Point3<f64>], before: b
     svg.polygon(&points, &look);
 }
 
-/// The two points that are farthest from each other.
+/// The two points farthest apart.
 fn farthest(points: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
     let mut found = ([0.0; 2], [0.0; 2]);
     let mut most = -1.0;
@@ -158,7 +158,7 @@ fn draw_spheres(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot) 
     svg.end();
 }
 
-/// Sections of bags, through which the body stays to be seen.
+/// Draws sections of bags, transparent so that the body stays visible.
 fn draw_sections(svg: &mut Svg, place: &Place, moment: &Snapshot) {
     let look = format!("fill=\"{BAG}\" fill-opacity=\"0.12\" stroke=\"{BAG}\" stroke-width=\"0.7\"");
     for section in &moment.sections {
@@ -191,7 +191,7 @@ fn draw_contacts(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot)
     }
 }
 
-/// An arrow; one shorter than its head is left out.
+/// An arrow; left out if shorter than its head.
 pub fn arrow(svg: &mut Svg, from: [f64; 2], to: [f64; 2], color: &str) {
     let along = [to[0] - from[0], to[1] - from[1]];
     let length = along[0].hypot(along[1]);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-/// Where the viewer stands.
+/// Direction of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum View {
@@ -10,12 +10,12 @@ pub enum View {
     Side,
     /// From above: forward is to the right, the vehicle's right is down.
     Top,
-    /// From ahead: the vehicle's left is to the right.
+    /// From the front: the vehicle's left is to the right.
     Front,
 }
 
 impl View {
-    /// As on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             View::Side => "side",
@@ -24,7 +24,7 @@ impl View {
         }
     }
 
-    /// Where it looks from.
+    /// The direction in words.
     pub const fn from(self) -> &'static str {
         match self {
             View::Side => "from the right",
@@ -33,7 +33,7 @@ impl View {
         }
     }
 
-    /// Names and senses of the vehicle axes that lie in the picture: along its x, along its y (down).
+    /// Names and signs of the vehicle axes in the picture: along its x, along its y (down).
     pub const fn axes(self) -> [(&'static str, f64); 2] {
         match self {
             View::Side => [("X", 1.0), ("Z", 1.0)],
@@ -51,7 +51,7 @@ impl View {
         }
     }
 
-    /// Picture place of a point, m.
+    /// Picture coordinates of a point, m.
     pub fn place(self, p: &Point3<f64>) -> [f64; 2] {
         let v = self.turn(p.coords);
         [v.x, v.y]

@@ -21,7 +21,7 @@ pub fn draw(strip: &Strip<'_>) -> String {
     sheet(strip, &Layout::of(strip, all, panel), 0..all)
 }
 
-/// The frames of a film as SVG, one for each moment, all with the same window and scales.
+/// The frames of a film as SVG, one per moment, with the same window and scales.
 pub fn frames<'s>(strip: &'s Strip<'_>) -> impl Fn(usize) -> String + Sync + 's {
     let layout = Layout::of(strip, 1, FILM_PANEL);
     move |moment| sheet(strip, &layout, moment..moment + 1)
@@ -45,7 +45,7 @@ fn sheet(strip: &Strip<'_>, layout: &Layout, shown: Range<usize>) -> String {
     svg.finish()
 }
 
-/// User units a newton, for the largest force of all moments; none without contacts.
+/// User units per newton, for the largest force of all moments; none without contacts.
 fn force_scale(strip: &Strip<'_>) -> Option<f64> {
     let contacts = strip.moments.iter().flat_map(|m| &m.contacts);
     let greatest = contacts.map(|c| c.force_n.norm()).fold(0.0, f64::max);

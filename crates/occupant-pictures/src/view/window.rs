@@ -8,9 +8,9 @@ use super::Strip;
 use super::projection::View;
 use crate::body::{Snapshot, parts};
 
-/// Room round what is shown, m.
+/// Margin around the region shown, m.
 const MARGIN_M: f64 = 0.06;
-/// Surfaces of the vehicle are shown as far as this from the body, m.
+/// Distance from the body up to which surfaces of the vehicle are shown, m.
 const REACH_M: f64 = 0.7;
 
 /// A box along the vehicle's axes, m.
@@ -21,7 +21,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// What holds all panels of a strip.
+    /// Region that contains all panels of a strip.
     pub fn of(strip: &Strip<'_>) -> Self {
         let mut window = Window { low: Vector3::repeat(f64::INFINITY), high: Vector3::repeat(f64::NEG_INFINITY) };
         for moment in &strip.moments {

@@ -19,9 +19,9 @@
 
 use crate::sections::{CarClass, CarSection, si_or};
 
-/// Stature at which the driver's seat stands at its design place, m: the mean of women and men.
+/// Stature for which the driver's seat is at its design position, m: the mean of women and men.
 pub(super) const MEAN_STATURE_M: f64 = 1.69;
-/// How far a driver's seat moves back per stature; SAE J4004.
+/// Rearward shift of a driver's seat per stature; SAE J4004.
 pub(super) const TRACK_PER_STATURE: f64 = 0.433;
 
 /// Lengths in m, angles in degrees.
@@ -37,17 +37,17 @@ pub(super) struct Measures {
     pub(super) shoulder_room: f64,
     /// Roof over the front H-point.
     pub(super) roof: f64,
-    /// Heels of the driver ahead of the design H-point.
+    /// Distance of the driver's heels forward of the design H-point.
     pub(super) heels: f64,
-    /// Centre of the wheel ahead of and above the design H-point.
+    /// Wheel centre forward of and above the design H-point.
     pub(super) wheel: [f64; 2],
     /// A18.
     pub(super) wheel_angle_deg: f64,
     /// W9.
     pub(super) wheel_diameter: f64,
-    /// Face of the panel ahead of the H-point, its top above it.
+    /// Panel face forward of the H-point, panel top above it.
     pub(super) panel: [f64; 2],
-    /// Face of the knee bolster ahead of the H-point.
+    /// Knee bolster face forward of the H-point.
     pub(super) bolster: f64,
 }
 
@@ -62,7 +62,8 @@ fn dimensions(class: CarClass) -> [f64; 9] {
     }
 }
 
-/// Effective head room has this on top of the way from the H-point to the roof, m, along a line that leans back by 8°; SAE J1100.
+/// Added to the distance from H-point to roof, along a line 8° behind the vertical, for effective head room, m; SAE
+/// J1100.
 pub(super) const H61_ADDS_M: f64 = 0.102;
 pub(super) const H61_LEANS_RAD: f64 = 8.0 * std::f64::consts::PI / 180.0;
 
@@ -74,7 +75,7 @@ const WHEEL_TO_PANEL_M: f64 = 0.29;
 const BOLSTER_BEFORE_PANEL_M: f64 = 0.06;
 
 impl Measures {
-    /// Of a class, with what the scenario says.
+    /// Measures of a class, changed by the scenario's values.
     pub(super) fn of(car: &CarSection) -> Measures {
         let [h30, l6, h17, a18, w9, w20, w3, l50, h61] = dimensions(car.class.unwrap_or_default());
         let (_, upright) = occupant_units::trig::sin_cos(H61_LEANS_RAD);

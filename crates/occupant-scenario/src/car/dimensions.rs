@@ -17,19 +17,19 @@ pub struct Dimension {
     /// The vehicle, none for the first.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub vehicle: Option<String>,
-    /// Its key, or what it is.
+    /// Its key, or a description.
     pub name: String,
     /// Its name in SAE J1100, if it has one.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub code: &'static str,
-    /// The distance, m, an angle from the vertical, rad, or what else there is to say.
+    /// Distance, m, or angle from the vertical, rad.
     #[serde(flatten)]
     pub size: Size,
-    /// The line that it is along, axes of the vehicle, m; twice one point of what has none.
+    /// Ends of its line, vehicle axes, m.
     pub ends_m: [[f64; 3]; 2],
 }
 
-/// How much.
+/// Size of a dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Size {
     /// A distance, m.
@@ -49,7 +49,7 @@ pub enum Size {
     Word(&'static str),
 }
 
-/// All of the cars of a scenario; none where its words are wrong.
+/// Dimensions of all cars of a scenario; none if their text is invalid.
 pub(crate) fn dimensions(sources: &Sources, root: &Node) -> Vec<Dimension> {
     let mut read = Document { sources: sources.clone(), main: root.span.source, root: root.clone() };
     if cars(root).next().is_none() || check_parts(&mut read, schema(), &CAR).has_errors() {
@@ -99,7 +99,7 @@ impl Car<'_> {
         Dimension { vehicle: self.vehicle.map(str::to_owned), name: name.to_owned(), code, size, ends_m }
     }
 
-    /// Heels, wheel and what is ahead, from the design H-point at the driver's lateral place.
+    /// Heels, wheel and parts in front, from the design H-point at the driver's lateral position.
     fn of_driver(&self, y: f64, all: &mut Vec<Dimension>) {
         let m = &self.measures;
         let (h30, [ahead, above]) = (m.seat_height, m.wheel);
@@ -137,7 +137,7 @@ impl Car<'_> {
         all.push(self.dimension("head room", "H61", head_room, [[0.0, y, 0.0], [back, y, -m.roof]]));
     }
 
-    /// Of a seat that is taken.
+    /// Dimensions of an occupied seat.
     fn of_seat(&self, seat: &Seat, stature_m: f64, all: &mut Vec<Dimension>) {
         let [x, y, z] = seat.h;
         let name = |key: &str| format!("seats.{}.{key}", seat.name);

@@ -26,24 +26,24 @@ pub use usual::Usual;
 pub(super) use usual::usual;
 use years::Years;
 
-/// Sections in which a car stands: they are checked before it is written out.
+/// Sections of a car, checked before it is expanded.
 pub(super) const CAR: [&str; 2] = ["car", "vehicles"];
-/// Sections of those who sit in it.
+/// Sections of its occupants.
 const BODIES: [&str; 2] = ["body", "occupants"];
 
-/// Whether a scenario has a car or a dummy in words.
+/// Whether a scenario has a car or a dummy to expand.
 pub(super) fn is_there(root: &Node) -> bool {
     cars(root).next().is_some() || dummies::any(root)
 }
 
-/// The cars of a scenario: the vehicle's name that stands before the names of all its parts, none of the first, and where it stands.
+/// The cars of a scenario, with the vehicle name that prefixes all parts (none for the first) and the path.
 fn cars(root: &Node) -> impl Iterator<Item = (Option<&str>, &Node)> {
     let others = root.get("vehicles").and_then(Node::as_table).into_iter().flatten();
     let others = others.filter_map(|(name, entry)| Some((Some(name.as_str()), entry.node.get("car")?)));
     root.get("car").map(|car| (None, car)).into_iter().chain(others)
 }
 
-/// What is wrong with a car whose words are right.
+/// Problems of a car with valid keys.
 pub(super) fn check(document: &Document) -> Diagnostics {
     let mut problems = Diagnostics::new();
     let names: Vec<&str> = SEATS.iter().map(|(name, ..)| *name).collect();
@@ -79,7 +79,7 @@ fn own_seats(document: &Document, vehicle: &str, problems: &mut Diagnostics) {
     }
 }
 
-/// What numbers of a car lie between: its key, the least and the greatest in SI units, and how a message says them.
+/// Ranges of a car's numbers: key, least and greatest in SI units, and the range as text.
 #[rustfmt::skip]
 const BETWEEN: [(&str, f64, f64, &str); 30] = [
     ("seat_height", 0.05, 0.8, "5 cm to 80 cm"), ("seat_offset", 0.05, 1.2, "5 cm to 1.2 m"), ("couple", 0.4, 2.0, "0.4 m to 2 m"),
@@ -96,7 +96,7 @@ const BETWEEN: [(&str, f64, f64, &str); 30] = [
 ];
 const OTHERS_M: [&str; 4] = ["slack", "pretensioner", "behind", "outboard"];
 
-/// Reports numbers that no car has.
+/// Reports implausible numbers.
 fn bounded(document: &Document, node: Option<&Node>, path: &str, problems: &mut Diagnostics) {
     for (key, entry) in node.and_then(Node::as_table).into_iter().flatten() {
         let path = with_key(path, key);
@@ -112,7 +112,7 @@ fn bounded(document: &Document, node: Option<&Node>, path: &str, problems: &mut 
     }
 }
 
-/// The scenario with its car written out; as it is where it has none, or one whose words are wrong.
+/// The scenario with its car expanded; unchanged if it has none, or an invalid one.
 pub(super) fn whole(sources: &mut Sources, root: &Node) -> Node {
     if !is_there(root) {
         return root.clone();
@@ -145,9 +145,9 @@ fn words(root: &Node) -> Option<String> {
     Some(text)
 }
 
-/// Somebody in a seat.
+/// An occupant of a seat.
 pub(super) struct Rider {
-    /// Where his own sections stand: nothing, or "occupants.NAME.".
+    /// Prefix of his sections: empty, or "occupants.NAME.".
     prefix: String,
     /// The vehicle that he sits in, none for the first.
     vehicle: Option<String>,
@@ -155,7 +155,7 @@ pub(super) struct Rider {
     seat: String,
     /// Standing height, m.
     stature_m: f64,
-    /// What of the body is not said.
+    /// Missing properties of his body.
     lacks: Lacks,
 }
 
@@ -166,20 +166,20 @@ impl Rider {
     }
 }
 
-/// What a scenario does not say of a body, and a car's rider therefore gets.
+/// Properties that a scenario does not give for a body, and that the car's occupant therefore gets by default.
 #[derive(Clone, Copy, Default)]
 struct Lacks {
-    /// Which body it is.
+    /// The body.
     body: bool,
-    /// Which joints it has.
+    /// The joints.
     joints: bool,
-    /// It is a grown-up with the joints of a person, of whom nothing is said that gives way.
+    /// Deformable parts: an adult with the joints of a person, without any of his own.
     flesh: bool,
-    /// Which spheres it has: a body whose segments are not its own.
+    /// The spheres: a body that does not define its own segments.
     spheres: bool,
-    /// Nothing else says how it begins.
+    /// The initial state.
     posture: bool,
-    /// Nothing says where its arms are.
+    /// The position of the arms.
     arms: bool,
 }
 
@@ -195,7 +195,7 @@ pub(super) const SEATS: [(&str, usize, f64); 8] = [
     ("third_right", 2, 1.0),
 ];
 
-/// Those who sit in a seat of a vehicle's car.
+/// Occupants of the seats of a vehicle's car.
 fn riders(root: &Node, vehicle: Option<&str>) -> Vec<Rider> {
     let Some(several) = root.get("occupants").and_then(Node::as_table) else {
         let drives = vehicle.is_none().then(|| rider(root, "", "driver", vehicle));
@@ -243,9 +243,9 @@ fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option
     Some(Rider { prefix: prefix.to_owned(), vehicle, seat: seat.to_owned(), stature_m, lacks })
 }
 
-/// A car with all its distances.
+/// A car with all its dimensions.
 pub(super) struct Car<'a> {
-    /// The vehicle that it is the inside of, none for the first.
+    /// Its vehicle, none for the first.
     vehicle: Option<&'a str>,
     measures: Measures,
     years: Years,
@@ -265,7 +265,7 @@ impl<'a> Car<'a> {
 }
 
 impl Car<'_> {
-    /// All of it, for those who sit in any.
+    /// The expanded text for these occupants.
     fn words(&self, riders: &[Rider]) -> String {
         let mut text = String::new();
         let count = riders.len();
@@ -287,12 +287,12 @@ impl Car<'_> {
         if self.section.drive == Some(Side::Right) { 1.0 } else { -1.0 }
     }
 
-    /// What a part of it is called.
+    /// Name of a part.
     fn name(&self, part: &str) -> String {
         self.vehicle.map_or_else(|| part.to_owned(), |vehicle| format!("{vehicle}_{part}"))
     }
 
-    /// The frame that it is fixed to.
+    /// Its frame.
     fn frame(&self) -> &str {
         self.vehicle.unwrap_or("vehicle")
     }
@@ -310,7 +310,7 @@ impl Car<'_> {
     }
 }
 
-/// Where the numbers come from.
+/// Sources of the numbers.
 const SOURCES: &str = r#"
 [provenance]
 car = "no particular car: H30, W3, W20, L50 and H61 of a class after S. Macey, G. Wardle: H-Point, ch. 6; the driver's place after SAE J4004; D-ring after Shaw et al. 2009; all else ours"
@@ -318,12 +318,12 @@ car = "no particular car: H30, W3, W20, L50 and H61 of a class after S. Macey, G
 "car.bags" = "made up: no measured inflator may be shipped"
 "#;
 
-/// What fixes a part to a vehicle, none for the first.
+/// Line that fixes a part to a vehicle, none for the first.
 fn frame_line(frame: Option<&str>) -> String {
     frame.map_or_else(String::new, |frame| format!("frame = \"{frame}\"\n"))
 }
 
-/// A length, m, as a text.
+/// A length, m, as text.
 fn m(length: f64) -> String {
     format!("\"{length} m\"")
 }
@@ -338,7 +338,7 @@ fn points<const N: usize>(points: &[[f64; N]]) -> String {
     format!("[{}]", points.iter().map(|point| list(point)).collect::<Vec<_>>().join(", "))
 }
 
-/// A prism seen from the side between two lateral faces; `more` are further lines.
+/// A prism in side view between two lateral faces; `more` are further lines.
 fn prism(name: &str, material: &str, profile: &[[f64; 2]], [y, half_width]: [f64; 2], more: &str) -> String {
     let mut text = format!("[solids.{name}]\nkind = \"prism\"\nmaterial = \"{material}\"\n");
     _ = writeln!(text, "profile = {}\ny = {}\nhalf_width = {}\n{more}", points(profile), m(y), m(half_width));

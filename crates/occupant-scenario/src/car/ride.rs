@@ -8,7 +8,7 @@ use crate::sections::{AnchorSection, CarBelt, CarClass, si_or};
 /// mid-size car, 416 and 616 mm, on the sled of G. Shaw et al.: Impact Response of Restrained PMHS in Frontal Sled Tests, Stapp Car Crash
 /// J. 53 (2009). It stands on the pillar: seats slide past it.
 const D_RING_M: [f64; 3] = [0.42, 0.27, 0.62];
-/// Behind the front, where backs lean more and no height adjuster is; ours.
+/// D-ring in the rear, where backs lean more and there is no height adjuster; ours.
 const REAR_D_RING_M: [f64; 3] = [0.46, 0.27, 0.56];
 /// Stature for which the D-ring stands there, how far its height adjuster follows the trunk per stature, its notches and how far that goes
 /// down and up, m; ours.
@@ -23,21 +23,21 @@ pub(super) const ANCHOR_M: [f64; 3] = [0.16, 0.25, -0.22];
 /// The inner anchor of a lap belt.
 const INNER_ANCHOR_M: [f64; 3] = [0.16, -0.23, -0.22];
 
-/// The belt of one among several, by name.
+/// Name of the only belt.
 const BELT: &str = "belt";
 
-/// From the floor to a heel that stands on it, m.
+/// Height of a heel above the floor, m.
 pub(super) const SOLE_M: f64 = 0.03;
 
-/// Heels of passengers ahead of their H-point and below the front one.
+/// Heels of passengers forward of and below their H-point, m.
 const PASSENGER_HEELS_M: f64 = 0.70;
-/// Heels of a driver whose seat is farther from the pedals than any leg reaches stand this far ahead of the H-point.
+/// Distance of a driver's heels forward of the H-point in a seat too far from the pedals for any leg, m.
 const FARTHEST_HEELS_M: f64 = 0.9;
-/// How far heels of people behind stay behind the H-points of the row ahead of them.
+/// Least distance of rear passengers' heels behind the H-points of the row in front, m.
 const REAR_FEET_M: f64 = 0.41;
 
 impl Car<'_> {
-    /// All of one rider's own.
+    /// All parts of one occupant.
     pub(super) fn ride(&self, rider: &Rider, riders: usize) -> String {
         let Some((name, row, side)) = SEATS.iter().find(|(name, ..)| *name == rider.seat) else { return String::new() };
         let seat = self.placed(name, *row, *side, Some(rider));
@@ -131,12 +131,12 @@ impl Car<'_> {
     }
 }
 
-/// Where a point of a belt is that a scenario may have said: behind, outboard, above, m.
+/// Position of a belt point, given by the scenario or by default: behind, outboard, above, m.
 pub(super) fn placed_m(said: &AnchorSection, [behind, outboard, above]: [f64; 3]) -> [f64; 3] {
     [si_or(&said.behind, behind), si_or(&said.outboard, outboard), si_or(&said.above, above)]
 }
 
-/// The buckle, of a lap belt its inner anchor.
+/// The buckle; for a lap belt its inner anchor.
 pub(super) fn buckle_m(kind: CarBelt) -> [f64; 3] {
     if kind == CarBelt::Lap { INNER_ANCHOR_M } else { BUCKLE_M }
 }
@@ -157,17 +157,17 @@ pub(super) fn d_ring_m(stature_m: f64, seat: &Seat) -> [f64; 3] {
     [behind - seat.track, outboard, above + adjusted]
 }
 
-/// Hands on the rim, seen from the side: their middles this far before its plane.
+/// Distance of the hands' centres behind the plane of the rim, m.
 const HANDS_BEFORE_RIM_M: f64 = 0.05;
 
-/// Webbing that a locked spool still gives, m; ours.
+/// Webbing paid out by a locked spool (film spool), m; ours.
 pub(super) const FILM_M: f64 = 0.03;
 
-/// Force of a spool at the end of its film, and 5 cm of webbing later where no limiter turns it; ours.
+/// Force of a spool at the end of the film spool-out, and 5 cm later without a limiter; ours.
 const FILM_N: f64 = 3000.0;
 const UNLIMITED_N: f64 = 15_000.0;
 
-/// Segments of each of so many riders: all together are at most 48.
+/// Number of segments per occupant: all together at most 48.
 fn segment_count(riders: usize) -> usize {
     match riders {
         0..=2 => 19,

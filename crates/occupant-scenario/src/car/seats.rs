@@ -4,30 +4,30 @@ use super::years::HARDENS;
 use super::{Car, Rider, SEATS, classes, frame_line, list, m, prism};
 use crate::sections::{CarClass, CarSeatSection, si_or};
 
-/// A seat in its place.
+/// A positioned seat.
 pub(super) struct Seat {
     pub(super) name: &'static str,
-    /// Its name, after that of the vehicle where it is not the first.
+    /// Its name, prefixed with the vehicle's unless it is the first.
     pub(super) id: String,
-    /// What the vehicle is called as a frame; none for the first.
+    /// Frame name of the vehicle; none for the first.
     vehicle: Option<String>,
     pub(super) row: usize,
-    /// Its H-point x, y, z, vehicle axes, m, and how far that is behind its design place.
+    /// Its H-point x, y, z, vehicle axes, m, and its distance behind the design position.
     pub(super) h: [f64; 3],
     pub(super) track: f64,
     pub(super) recline_deg: f64,
     /// Left or right half, m.
     half_width: f64,
     pub(super) own: CarSeatSection,
-    /// Its rider's name: empty where there is one occupant without a name, none of an empty seat.
+    /// Its occupant's name: empty for a single unnamed occupant, none for an empty seat.
     rider: Option<String>,
 }
 
-/// How far the face of a seat's back lies behind the H-point, across its lean, m; ours: a body's back with its flesh.
+/// Distance of the back's face behind the H-point, across its lean, m; ours: a body's back with its flesh.
 const BACK_BEHIND_M: f64 = 0.105;
-/// Back of the head of an average man who sits so, ahead of the line of the back through the H-point, m.
+/// Back of an average man's head, forward of the line of the back through the H-point, m.
 const HEAD_BACK_M: f64 = -0.02;
-/// Recliner and middle of the back's mass: up along the back's line through the H-point and ahead of it, m; ours.
+/// Recliner and centre of the back's mass: along the back's line through the H-point and forward of it, m; ours.
 const RECLINER_M: [f64; 2] = [-0.08, -0.15];
 const BACK_MIDDLE_M: [f64; 2] = [0.32, -0.20];
 /// Lean of backs in the front and behind, degrees; ours. The backs of SAE's manikin lean by 20 to 24 and 19 to 27 (A40).
@@ -36,7 +36,7 @@ const RECLINE_DEG: [f64; 3] = [20.0, 24.0, 24.0];
 const RISES_M: [f64; 3] = [0.0, 0.02, 0.04];
 
 impl Car<'_> {
-    /// The seats that somebody sits in or the scenario names, and those of the front row before and beside them.
+    /// Occupied or named seats, and the other front seats.
     pub(super) fn seats(&self, riders: &[&Rider]) -> Vec<Seat> {
         let is_sled = self.section.class == Some(CarClass::Sled);
         let rider = |name: &str| riders.iter().copied().find(|rider| rider.seat == name);
@@ -80,7 +80,7 @@ impl Seat {
         self.rider.is_some()
     }
 
-    /// Whom a bag before it or beside it touches.
+    /// The occupant touched by a bag in front of the seat or beside it.
     pub(super) fn met(&self) -> String {
         let rider = self.rider.as_deref().filter(|rider| !rider.is_empty());
         rider.map_or_else(String::new, |rider| format!("occupant = \"{rider}\"\n"))
@@ -124,7 +124,7 @@ impl Seat {
         self.hinge() + &text + &self.booster() + &self.head_restraint(&back) + &self.place()
     }
 
-    /// Rows behind the front are benches, met without seams, where they do not yield by themselves.
+    /// Rear rows are benches: their parts form one group, unless they yield separately.
     fn group(&self, part: &str, frame: &str) -> String {
         let yields =
             self.back_frame().is_some_and(|own| frame_line(Some(&own)) == frame && self.own.back_moment.is_some());
@@ -140,7 +140,7 @@ impl Seat {
         if self.own.back_moment.is_some() { Some(format!("{}_recliner", self.id)) } else { self.vehicle.clone() }
     }
 
-    /// A firm cushion on the foam, under a child.
+    /// A booster cushion on the foam.
     fn booster(&self) -> String {
         let Some(height) = self.own.booster.as_ref().map(|height| height.si()) else { return String::new() };
         let corners =
@@ -149,7 +149,7 @@ impl Seat {
         prism(&format!("{}_booster", self.id), "pan", &corners, [self.h[1], 0.20], &more)
     }
 
-    /// The recliner of a back that yields: a few degrees of spring, then the moment; ours, as is the back's mass.
+    /// Hinge of a yielding back: a few degrees of spring, then the moment; ours, as is the back's mass.
     fn hinge(&self) -> String {
         let Some(moment) = self.own.back_moment.as_ref().map(|moment| moment.si()) else { return String::new() };
         let ([x, z], [cx, cz]) = (self.along(RECLINER_M), self.along(BACK_MIDDLE_M));
@@ -166,7 +166,7 @@ impl Seat {
         )
     }
 
-    /// The material of cushion ("foam") or back: that of all, or a stiffer or softer one of its own.
+    /// Material of cushion ("foam") or back: the common one, or one scaled for this seat.
     fn soft(&self, part: &str) -> String {
         if self.own.foam.is_some() { format!("{}_{part}", self.id) } else { part.to_owned() }
     }

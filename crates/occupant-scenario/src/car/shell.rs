@@ -8,13 +8,13 @@ use super::{Car, frame_line, list, m, points};
 use crate::sections::{CarClass, IntrusionSection, si_or};
 use occupant_units::trig::sin_cos;
 
-/// Middle of a curtain below the roof, m: beside the heads.
+/// Distance of a curtain's middle below the roof, m: beside the heads.
 const CURTAIN_UP_M: f64 = 0.30;
 /// Thickness of a door.
 const DOOR_M: f64 = 0.20;
 
 impl Car<'_> {
-    /// Triggers of belts and bags stand here, as every car has them.
+    /// Triggers of belts and bags.
     fn triggers(&self) -> String {
         let of = |name: &str, more: &str| {
             let (name, vehicle) = (self.name(name), self.frame());
@@ -31,12 +31,12 @@ impl Car<'_> {
         self.measures.shoulder_room / 2.0
     }
 
-    /// Where the floor is, m.
+    /// Height of the floor.
     fn floor_z(&self) -> f64 {
         self.measures.seat_height + SOLE_M
     }
 
-    /// A slanted board before the feet and the floor under them.
+    /// Toe board and floor.
     pub(super) fn foot_rest(&self) -> String {
         let (toe, floor, w) = (self.measures.heels, self.floor_z(), self.half_width());
         let board = [
@@ -53,7 +53,7 @@ impl Car<'_> {
         self.triggers() + &text
     }
 
-    /// What fixes a part to a side that may come in.
+    /// Frame of a side that may intrude.
     fn moved(&self, side: &str) -> String {
         match self.intrusion(side) {
             Some(_) => format!("frame = \"{}\"\n", self.name(&format!("{side}_intrusion"))),
@@ -70,7 +70,7 @@ impl Car<'_> {
         }
     }
 
-    /// How sides come in: a fifth of the time at rising speed, then at falling speed.
+    /// Intrusion of the sides: speed rises during a fifth of the time, then falls.
     pub(super) fn intrusions(&self) -> String {
         let mut text = String::new();
         for (side, way) in [("left", "y"), ("right", "y"), ("front", "x")] {
@@ -94,7 +94,7 @@ impl Car<'_> {
         text
     }
 
-    /// All but seats and wheel.
+    /// Everything except seats and wheel.
     pub(super) fn shell(&self, seats: &[Seat]) -> String {
         let last = seats.iter().map(|seat| seat.row).max().unwrap_or(0).max(1) as f64;
         let rear = -last * self.measures.couple - 0.75;
@@ -109,7 +109,7 @@ impl Car<'_> {
             + &self.bags(seats)
     }
 
-    /// What stands between the front seats.
+    /// Console between the front seats.
     fn console(&self) -> String {
         let class = self.section.class.unwrap_or_default();
         if !self.section.console.unwrap_or(!matches!(class, CarClass::Van | CarClass::Pickup)) {
@@ -146,7 +146,7 @@ impl Car<'_> {
             + &self.prism("windscreen", "windscreen", &screen, [0.0, w - 0.02], "")
     }
 
-    /// Roof, doors, windows, pillars and what is behind.
+    /// Roof, doors, windows, pillars and rear wall.
     fn around(&self, rear: f64) -> String {
         let (w, roof, floor) = (self.half_width(), self.measures.roof, self.floor_z());
         let [a, above] = self.measures.panel;
@@ -192,7 +192,7 @@ impl Car<'_> {
         text
     }
 
-    /// Where the rim's middle is, and the direction of the column away from the driver.
+    /// Centre of the rim, and direction of the column away from the driver.
     fn rim(&self) -> ([f64; 3], [f64; 3]) {
         let [ahead, above] = self.measures.wheel;
         let (sin, cos) = sin_cos(self.measures.wheel_angle_deg.to_radians());
@@ -230,7 +230,7 @@ impl Car<'_> {
         )
     }
 
-    /// The bags of those who sit in front; the first vehicle alone can have some.
+    /// Bags of the front occupants, in the first vehicle only.
     fn bags(&self, seats: &[Seat]) -> String {
         let bags = &self.section.bags;
         if self.vehicle.is_some() {
@@ -259,7 +259,7 @@ impl Car<'_> {
         text + &self.bags_beside(seats)
     }
 
-    /// Curtains, from the front pillar to behind the last heads, and bags between doors and those who sit beside them.
+    /// Curtains, from the front pillar to behind the last heads, and side bags between doors and occupants.
     fn bags_beside(&self, seats: &[Seat]) -> String {
         let (bags, w, roof) = (&self.section.bags, self.half_width(), self.measures.roof);
         let mut text = String::new();
@@ -304,7 +304,7 @@ impl Car<'_> {
         text
     }
 
-    /// A bag of the library round a line, with as much more gas as it is larger than that; `more` are further lines.
+    /// A library bag around a line, with gas in proportion to its volume; `more` are further lines.
     fn bag_beside(
         &self,
         [name, more]: [&str; 2],
@@ -330,7 +330,7 @@ impl Car<'_> {
         )
     }
 
-    /// A bag before a seat, of so many litres, of this depth, radius and radius of its face, m.
+    /// A bag in front of a seat: volume in litres, depth, radius and face radius, m.
     fn bag(
         &self,
         seat: &Seat,

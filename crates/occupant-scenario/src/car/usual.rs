@@ -3,33 +3,33 @@
 use super::{Dimension, Size, dimensions};
 use placed_text::{Node, Sources};
 
-/// How a number is usually spread, SI units.
+/// Built-in distribution of a value, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Usual {
-    /// Gauss's bell between two values.
+    /// Truncated normal distribution.
     Normal {
-        /// Mean, and standard deviation before it is cut.
+        /// Mean, and standard deviation before truncation.
         mean_sd: [f64; 2],
         /// Least and greatest value.
         ends: [f64; 2],
     },
-    /// From a likeliest value straight down to the greatest.
+    /// Triangular distribution with its mode at the lower end.
     Falling {
-        /// The likeliest value, which is the least.
+        /// Mode, which is the least value.
         mode: f64,
         /// The greatest value.
         to: f64,
     },
 }
 
-/// Where a spread is known from.
+/// Definition of a built-in distribution.
 enum Spread {
-    /// About what the scenario says or its class gives: standard deviation, and how far at most, m or rad.
+    /// Around the scenario's or the class's value: standard deviation, and largest deviation, m or rad.
     About(f64, f64),
     Law(Usual),
 }
 
-/// Keys of a seat's occupant with their spread, and where that comes from.
+/// Keys of a seat's occupant with their distributions, and sources.
 const OF_SEATS: [(&str, Spread); 6] = [
     // beside stature, which moves the seat by itself: what the lengths of seat tracks in SAE J4004 leave; an estimate
     ("track", Spread::About(0.033, 0.10)),
@@ -43,7 +43,7 @@ const OF_SEATS: [(&str, Spread); 6] = [
     // of belted drivers of US cars 35 % had more than 25 mm, most of them less than 50 mm (Maryland, model years 1974 to 1987)
     ("slack", Spread::Law(Usual::Falling { mode: 0.0, to: 0.06 })),
 ];
-/// Keys of the car; estimates of columns that are adjusted by tilt and reach.
+/// Keys of the car; estimates for columns with tilt and reach adjustment.
 const OF_CAR: [(&str, Spread); 2] =
     [("wheel.ahead", Spread::About(0.025, 0.06)), ("wheel.above", Spread::About(0.02, 0.05))];
 /// Adults of the United States, 2011 to 2014 (Fryar et al., Vital and Health Statistics 3, 39): stature of women and men, m, and mass, kg.
@@ -51,7 +51,7 @@ const OF_CAR: [(&str, Spread); 2] =
 const STATURE_M: [[f64; 2]; 2] = [[1.618, 0.071], [1.757, 0.076]];
 const MASS_KG: [[f64; 2]; 2] = [[76.4, 19.0], [88.8, 19.0]];
 
-/// The usual spread of what stands at a path; none where none is known.
+/// Built-in distribution for a path; none if there is none.
 pub(crate) fn usual(sources: &Sources, root: &Node, path: &str) -> Option<Usual> {
     if let Some((own, key)) = path.rsplit_once("body.") {
         return of_body(root, own, key);
@@ -75,7 +75,7 @@ fn find<'t>(table: &'t [(&str, Spread)], key: &str) -> Option<&'t Spread> {
     table.iter().find(|(known, _)| *known == key).map(|(_, spread)| spread)
 }
 
-/// Of a person of a sex that is said: "body" or "occupants.NAME.body".
+/// Distribution for a person of known sex: "body" or "occupants.NAME.body".
 fn of_body(root: &Node, own: &str, key: &str) -> Option<Usual> {
     let mut steps = own.trim_end_matches('.').split('.').filter(|step| !step.is_empty());
     let holder = steps.try_fold(root, |node, step| node.get(step))?;

@@ -21,7 +21,7 @@ pub(super) struct Years {
     /// Front air bags.
     pub(super) bags: bool,
     limiter: Option<f64>,
-    /// In front.
+    /// Of the front seats.
     pretensioner: f64,
     head_height: f64,
     head_gap: f64,

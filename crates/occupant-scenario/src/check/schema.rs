@@ -22,7 +22,7 @@ pub fn schema_of<T: JsonSchema>(title: &str) -> Value {
     schema
 }
 
-/// Optional keys may be left out, but not be null.
+/// Optional keys may be absent, but not null.
 #[derive(Clone)]
 struct WithoutNull;
 

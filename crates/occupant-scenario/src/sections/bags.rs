@@ -82,7 +82,7 @@ pub(crate) struct BagSection {
     /// the first sphere, to which the others add. 1 if absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) reach: IndexMap<String, Ratio<POSITIVE>>,
-    /// Mass of cover and fabric that it throws ahead of it as it unfolds: the blow to a body in its way. 0 if absent.
+    /// Mass of cover and fabric thrown forward as the bag unfolds, which strikes a body in its path. 0 if absent.
     pub(crate) cover: Option<Mass<NOT_NEGATIVE>>,
     /// The air around it.
     pub(crate) ambient: Option<AmbientSection>,
@@ -196,7 +196,7 @@ pub(super) fn bags(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: 
     scenario.bags.iter().filter_map(|(name, section)| parts.bag(b, name, section, body)).collect()
 }
 
-/// What bags refer to.
+/// Objects that bags refer to.
 struct Parts<'a> {
     scenario: &'a Scenario,
     triggers: &'a Triggers<'a>,
@@ -239,7 +239,7 @@ impl Parts<'_> {
         })
     }
 
-    /// What it is fixed to.
+    /// Its frame.
     fn frame(&self, b: &mut Builder, path: &str, s: &BagSection) -> Frame {
         let at = with_key(path, "frame");
         let frame = b.frame(self.scenario, &at, s.frame.as_deref());
@@ -251,7 +251,7 @@ impl Parts<'_> {
         frame
     }
 
-    /// The time of an event that waits for a trigger.
+    /// Time of an event triggered by a trigger.
     fn due_s(&self, b: &mut Builder, path: &str, trigger: &str, delay: &Option<Time<NOT_NEGATIVE>>) -> f64 {
         let at = self.triggers.time_s(b, &format!("{path}.trigger"), trigger);
         at.map_or(NEVER, |at_s| at_s + si_or(delay, 0.0))
@@ -311,7 +311,7 @@ fn gas(s: &GasSection) -> Gas {
     Gas { r_j_kg_k: GAS_CONSTANT_J_MOL_K / s.molar_mass.si(), a_j_kg_k: s.cp.si(), b_j_kg_k2: si_or(&s.cp_slope, 0.0) }
 }
 
-/// A value of a bag's own section or of the library.
+/// A value from the bag's own section or the library.
 fn said<T>(b: &mut Builder, path: &str, key: &str, value: Option<T>) -> Option<T> {
     if value.is_none() {
         b.error(path, format!("a bag without {key}"), format!("{key}, or `library` with a bag that has it"));
@@ -366,7 +366,7 @@ fn spheres(b: &mut Builder, path: &str, (s, names): (&BagSection, &[String]), bo
 /// Sampling points over the width of a sphere when areas are counted.
 const POINTS: i32 = 100;
 
-/// Ratio of the frontal area that the spheres of a part cover together to that of the first of them.
+/// Ratio of the frontal area covered by all spheres of a part to that of the first one.
 fn widening(body: &Body, part: &[usize]) -> f64 {
     let Some(first) = part.first().map(|first| &body.spheres[*first]) else { return 1.0 };
     let own = part.iter().map(|sphere| &body.spheres[*sphere]).filter(|sphere| sphere.segment == first.segment);

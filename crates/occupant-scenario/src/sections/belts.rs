@@ -71,8 +71,8 @@ pub(crate) struct BeltSection {
     pub(crate) buckle: Option<[Length; 3]>,
     /// Outer lap anchor of a preset, vehicle axes.
     pub(crate) anchor: Option<[Length; 3]>,
-    /// What the lap belt of a preset bears on: "pelvis", the sphere, off which it cannot slide, or "wings", the iliac
-    /// wings, off which it can slide up to the abdomen (submarining). "pelvis" if absent.
+    /// Support of a preset's lap belt: "pelvis", the sphere, off which it cannot slide, or "wings", the iliac wings,
+    /// off which it can slide up to the abdomen (submarining). "pelvis" if absent.
     pub(crate) lap: Option<Lap>,
     /// Name of the retractor of a preset.
     pub(crate) retractor: Option<String>,
@@ -88,7 +88,7 @@ impl BeltSection {
     }
 }
 
-/// More belts than this are a mistake: settling evaluates them in hundreds of postures.
+/// Largest number of belts; settling evaluates them in hundreds of postures.
 pub(super) const MOST: usize = 100;
 
 /// All loops, in the order written.

@@ -17,7 +17,7 @@ use occupant_core::body::{Body, ContactSphere, Ride, Segment, SegmentProperties,
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use placed_text::{Problem, with_key};
 
-/// More spheres than this are a slip: each meets every surface, and others of the body.
+/// Largest number of spheres; each is tested against all surfaces, and against spheres of other bodies.
 const MOST_SPHERES: usize = 500;
 
 /// A preset, changes to it, or a whole body of your own.
@@ -30,7 +30,7 @@ pub(crate) struct BodySection {
         "male50", "male50-1970", "female05", "female50", "male95", "child06", "child10",
     ]))]
     pub(crate) preset: Option<String>,
-    /// A dummy in one word: size, chest, neck and joints; keys given here and under `joints` replace them.
+    /// A dummy by name: size, chest, neck and joints; keys given here and under `joints` override them.
     pub(crate) dummy: Option<DummyChoice>,
     /// Sex of an adult defined by sex, stature and mass.
     #[schemars(extend("enum" = ["female", "male"]))]
@@ -93,20 +93,23 @@ pub(crate) struct BodySection {
     pub(crate) spheres: IndexMap<String, SphereSection>,
 }
 
-/// A body that behaves as a dummy in the tests that are named. Its masses, lengths and outside are those of a person of that size.
+/// A dummy, fitted to the tests named. Its masses, lengths and shape are those of a person of that size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) enum DummyChoice {
-    /// Hybrid III, 50th-percentile male: neck fitted to 49 CFR 572.33 (11 of 12 figures within the corridors), chest to 572.34, hips to
-    /// 572.35; the back is that of 572.9; knees and limbs were compared with nothing.
+    /// Hybrid III, 50th-percentile male: neck fitted to 49 CFR 572.33 (11 of 12 values within the corridors), chest to
+    /// 572.34, hips to 572.35; the back is that of 572.9; knees and limbs were not compared with tests.
     #[serde(rename = "hybrid3_50m-like")]
     HybridIii50M,
-    /// Hybrid III, 5th-percentile female: neck fitted to 572.133, chest to 572.134, trunk to 572.135; nothing else was compared.
+    /// Hybrid III, 5th-percentile female: neck fitted to 572.133, chest to 572.134, trunk to 572.135; nothing else was
+    /// compared with tests.
     #[serde(rename = "hybrid3_5f-like")]
     HybridIii5F,
-    /// Hybrid III, child of six years: neck fitted to 572.123, trunk to 572.125; its chest is rigid; nothing else was compared.
+    /// Hybrid III, six-year-old child: neck fitted to 572.123, trunk to 572.125; its chest is rigid; nothing else was
+    /// compared with tests.
     #[serde(rename = "hybrid3_6c-like")]
     HybridIii6C,
-    /// Hybrid II: neck fitted to the pendulum of 572.7 of 1973; its chest is rigid; nothing else was compared.
+    /// Hybrid II: neck fitted to the pendulum test of 572.7 of 1973; its chest is rigid; nothing else was compared with
+    /// tests.
     #[serde(rename = "hybrid2-like")]
     HybridIi,
 }
@@ -115,12 +118,13 @@ pub(crate) enum DummyChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum SphereSet {
-    /// The 17 of the report, with gaps between them.
+    /// The 17 spheres of the 1970 report, with gaps between them.
     Report,
     /// Without gaps: a face, a chin and a neck, sides of chest and pelvis, an abdomen, rows along the limbs, forefeet. Sizes
     /// follow from the radii of the 17, of which thighs and shins become rows.
     Full,
-    /// The same spheres, but those that overlap share their force: it depends on the body's area and not on the number of spheres.
+    /// The same spheres as "full", but overlapping ones share their force: it depends on the body's area and not on the
+    /// number of spheres.
     Even,
 }
 
@@ -201,22 +205,22 @@ pub(crate) struct SphereSection {
     pub(crate) segment: Option<String>,
     /// Centre from the segment's lower end, in segment axes (X forward, Y left, Z up when standing).
     pub(crate) centre: Option<[Length; 3]>,
-    /// How far it follows the plates of its segment, by what touches it; not at all if absent.
+    /// Share of each plate's deflection that the sphere follows, by contact type; none if absent.
     pub(crate) ride: Option<RideSection>,
     /// True removes the sphere.
     pub(crate) remove: Option<bool>,
 }
 
-/// Presets that are a person, whom sex, stature and mass change.
+/// Presets of persons, which sex, stature and mass can modify.
 const PEOPLE: &str = "one of female05, female50, male50, male95, or sex, stature and mass without a preset";
 
 impl BodySection {
-    /// Whether it speaks of a person's size.
+    /// Whether it gives a person's size.
     pub(crate) fn describes_a_person(&self) -> bool {
         self.sex.is_some() || self.stature.is_some() || self.mass.is_some()
     }
 
-    /// The person it describes, changes of another.
+    /// The person described, as changes of another.
     pub(crate) fn person(&self, from: Person) -> Person {
         let sex = self.sex.as_deref().map(|sex| if sex == "female" { Sex::Female } else { Sex::Male });
         Person {
@@ -227,7 +231,7 @@ impl BodySection {
     }
 }
 
-/// Whether a person's size is whole and within reach of what was measured.
+/// Checks that a person's size is complete and within the range of the surveys.
 fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
     if !section.describes_a_person() {
         return;
@@ -250,7 +254,9 @@ fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
     }
     let person = section.person(named.unwrap_or(REFERENCE_PERSON));
     let size = format!("a person of {:.3} m and {:.1} kg", person.stature_m, person.mass_kg);
-    if !person.is_within_reach() {
+    if !(1.4..=2.05).contains(&person.stature_m) && section.stature.is_some() {
+        b.error("body.stature", format!("no adult is {} m tall", person.stature_m), REACH);
+    } else if !person.is_within_reach() {
         b.error("body", size, REACH);
     } else if let factor @ (..0.9 | 1.1..) = person.body(Division::default()).1 {
         let found = format!("{size}: segment masses by volume must be scaled by {factor:.2} to reach that mass");
@@ -263,14 +269,14 @@ fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
 }
 
 impl BodySection {
-    /// The division that a preset or a person has.
+    /// The division into segments of a preset or a person.
     pub(crate) fn division(&self) -> Option<Division> {
         self.segment_count.map_or(Some(Division::default()), Division::of)
     }
 }
 
-/// The body; `section` is explicit, `preset` is the one it came from. One that `is_part` needs no head, chest or pelvis. None
-/// where its joints make no tree.
+/// The body; `section` is explicit, `preset` is its origin. A partial body (`is_part`) needs no head, chest or pelvis.
+/// None if its joints form no tree.
 pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection, is_part: bool) -> Option<Body> {
     if section.spheres.len() > MOST_SPHERES {
         let found = format!("{} spheres", section.spheres.len());
@@ -360,7 +366,7 @@ pub(super) fn turned(angles: &Option<[Angle; 3]>) -> UnitQuaternion<f64> {
     UnitQuaternion::from_euler_angles(roll, pitch, yaw)
 }
 
-/// The spheres: those of the set in its order, then others as written.
+/// The spheres: those of the set in order, then others as written.
 fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<ContactSphere> {
     let sections = &body_section.spheres;
     let kept = |name: &str| {
@@ -398,7 +404,7 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
     spheres
 }
 
-/// A sphere of the set with a size, a place or a part of its own.
+/// A sphere of the set with its own size, position or part.
 fn changed(b: &mut Builder, body: &Body, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
     let path = with_key("body.spheres", &sphere.name);
     let segment = carrier(b, body.tree, &path, section);
@@ -421,7 +427,7 @@ fn changed(b: &mut Builder, body: &Body, mut sphere: ContactSphere, section: &Sp
     }
 }
 
-/// The segment that a sphere is said to be on.
+/// The segment of a sphere.
 fn carrier(b: &mut Builder, tree: &Tree, path: &str, section: &SphereSection) -> Option<Segment> {
     let name = section.segment.as_deref()?;
     let segment = tree.segment_named(name);

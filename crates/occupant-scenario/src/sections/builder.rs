@@ -31,7 +31,7 @@ impl Builder<'_> {
         quantity.as_ref().map_or(f64::NAN, Quantity::si)
     }
 
-    /// The value of the explicit scenario at a path, which has passed the check; none if it has none.
+    /// The value of the checked explicit scenario at a path; none if there is none.
     pub(super) fn section<T: DeserializeOwned>(&self, path: &str) -> Option<T> {
         let node = follow(&self.document.root, &parse_path(path).ok()?)?;
         T::deserialize(node).ok()
@@ -46,7 +46,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The spheres of the parts, or single ones, that a list at `path` names.
+    /// The spheres of parts, or single spheres, named by a list at `path`.
     pub(super) fn spheres(&mut self, path: &str, names: &[String], body: &Body) -> Vec<usize> {
         let mut spheres = Vec::new();
         for (i, name) in names.iter().enumerate() {
@@ -59,7 +59,7 @@ impl Builder<'_> {
         spheres
     }
 
-    /// The sphere that is named at `path`; none for a whole part.
+    /// The sphere named at `path`; none for a whole part.
     pub(super) fn sphere(&mut self, path: &str, name: &str, body: &Body) -> usize {
         body.sphere(name).unwrap_or_else(|| {
             let names: Vec<&str> = body.spheres.iter().map(|sphere| sphere.name.as_str()).collect();

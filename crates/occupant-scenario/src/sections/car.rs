@@ -8,10 +8,10 @@ use super::quantity::{NOT_NEGATIVE, POSITIVE};
 use super::three_point::Side;
 use super::{Angle, Force, Length, Moment, Ratio, Stiffness, Time};
 
-/// What messages call a car that was written out.
+/// Name of an expanded car in messages.
 pub(crate) const CAR_TITLE: &str = "car";
 
-/// A class of cars.
+/// Class of a car.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum CarClass {
@@ -50,7 +50,7 @@ pub(crate) enum CarYears {
     /// Up to about 1985: belts without limiter and pretensioner, no air bags.
     #[serde(rename = "1970s")]
     Seventies,
-    /// Air bags in front, the same belts.
+    /// Front air bags, the same belts.
     #[serde(rename = "1990s")]
     Nineties,
     /// Limiters and pretensioners in front, head restraints of before 2009.
@@ -129,7 +129,7 @@ pub(crate) struct WheelSection {
     pub(crate) angle: Option<Angle<NOT_NEGATIVE>>,
     /// Diameter, W9.
     pub(crate) diameter: Option<Length<POSITIVE>>,
-    /// Force at which the column gives way; 2.5 kN if absent.
+    /// Force at which the column collapses; 2.5 kN if absent.
     pub(crate) column_force: Option<Force<POSITIVE>>,
     /// Stroke of the column; 100 mm if absent.
     pub(crate) column_stroke: Option<Length<POSITIVE>>,
@@ -272,7 +272,7 @@ pub(crate) struct CarSeatSection {
     pub(crate) foam: Option<Ratio<POSITIVE>>,
     /// Height of a child's booster cushion; none if absent.
     pub(crate) booster: Option<Length<POSITIVE>>,
-    /// Backset: distance of the head restraint behind an average man's head; by years if absent, 50 mm at present.
+    /// Backset: distance of the head restraint behind an average man's head; by model year if absent, 50 mm at present.
     pub(crate) head_gap: Option<Length<NOT_NEGATIVE>>,
     /// Height of the head restraint's top above the H-point, along the back; by years if absent, 0.80 m at present.
     pub(crate) head_height: Option<Length<POSITIVE>>,
@@ -283,16 +283,16 @@ pub(crate) struct CarSeatSection {
     /// Webbing that the pretensioner pulls in, 0 without one; by years if absent: 100 mm in front and 0 in the rear at present, none before
     /// 2000.
     pub(crate) pretensioner: Option<Length<NOT_NEGATIVE>>,
-    /// Film spool-out: webbing that a locked retractor still gives; 30 mm if absent.
+    /// Film spool-out: webbing paid out by a locked retractor; 30 mm if absent.
     pub(crate) film: Option<Length<POSITIVE>>,
     /// Slack of the belt. A pretensioner takes it up first. 0 if absent.
     pub(crate) slack: Option<Length<NOT_NEGATIVE>>,
     /// True: the tongue clamps the webbing, and none passes from the shoulder to the lap; false if absent.
     pub(crate) locking_tongue: Option<bool>,
-    /// How far above its usual place the lap belt begins on the pelvis; negative is below; 0 if absent.
+    /// Height of the lap belt above its usual position on the pelvis; negative is below; 0 if absent.
     pub(crate) lap_above: Option<Length>,
-    /// Upper anchor (D-ring) of the belt, from the H-point. If absent it stands on the pillar, where the seat's design position
-    /// has it, or with `belt = "seat"` at the upper outer corner of the back.
+    /// Upper anchor (D-ring) of the belt, from the H-point. If absent it is on the pillar, in line with the seat's
+    /// design position.
     #[serde(default)]
     pub(crate) d_ring: AnchorSection,
     /// Buckle, from the H-point; `outboard` is negative, towards the inner side.

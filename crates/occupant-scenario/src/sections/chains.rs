@@ -12,14 +12,14 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::function::Function;
 use placed_text::with_key;
 
-/// Everything that belts refer to.
+/// Objects that belts refer to.
 pub(super) struct Parts<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) body: &'a Body,
     pub(super) triggers: &'a Triggers<'a>,
 }
 
-/// All belts with nodes, in the order written; one for each part between ties.
+/// All belts with nodes, in the order written; one per part between ties.
 pub(super) fn chains(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Chain> {
     let parts = Parts { scenario, body, triggers };
     let mut list = Vec::new();
@@ -104,7 +104,7 @@ impl Parts<'_> {
     }
 }
 
-/// What the unstretched length follows from.
+/// Source of the unstretched length.
 fn rest(s: &BeltSection) -> Rest {
     match (&s.slack, &s.pretension, &s.length) {
         (_, Some(tension), _) => Rest::Pretension(tension.si()),

@@ -49,12 +49,12 @@ fn column(b: &mut Builder, name: &str, s: &FrameSection, frame: usize) -> Column
 }
 
 impl FrameSection {
-    /// Whether it moves when pushed.
+    /// Whether it moves under load.
     pub(super) fn gives(&self) -> bool {
         matches!(self.kind, Some(FrameKind::Column | FrameKind::Hinge))
     }
 
-    /// Reports keys of the other kinds, and missing keys of its own.
+    /// Reports keys of other kinds, and missing keys of its own.
     pub(super) fn check_keys(&self, b: &mut Builder, path: &str) {
         let (keys, others, expected): (&[(&str, bool)], _, _) = match self.kind {
             Some(FrameKind::Column) => (

@@ -48,7 +48,7 @@ pub(crate) struct FrameSection {
     /// "panel" moves as `path` says; "column" strokes along `axis` when bodies or bags push it; "hinge" turns about
     /// `axis`. "panel" if absent.
     pub(crate) kind: Option<FrameKind>,
-    /// What it moves against: a vehicle, or a panel above it; "vehicle" if absent.
+    /// Parent frame: a vehicle, or a panel defined before it; "vehicle" if absent.
     pub(crate) parent: Option<String>,
     /// Centre of rotation of a panel or hinge, or centre of the stroking mass, in the parent's axes; [0, 0, 0] if
     /// absent.
@@ -86,15 +86,15 @@ pub(crate) struct FrameSection {
     pub(crate) library: Option<String>,
 }
 
-/// What a frame is.
+/// Kind of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum FrameKind {
     /// It moves along a given path.
     Panel,
-    /// It moves when pushed, and stays there.
+    /// It strokes under load, permanently.
     Column,
-    /// It turns when pushed, and stays there.
+    /// It rotates under load, permanently.
     Hinge,
 }
 
@@ -102,7 +102,7 @@ pub(crate) enum FrameKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Meets {
-    /// Bodies that began in the vehicle that it belongs to.
+    /// Bodies that start in its vehicle.
     Own,
     /// All other bodies.
     Others,
@@ -121,19 +121,19 @@ impl Scenario {
         self.vehicles.iter().skip(usize::from(self.path.is_none()))
     }
 
-    /// The path of the first vehicle and its position in the text; none if nothing moves.
+    /// The path of the first vehicle and its position in the text; none without motion.
     pub(super) fn first_path(&self) -> Option<(Vec<&str>, &PathSection)> {
         let named = || self.vehicles.first().map(|(name, vehicle)| (vec!["vehicles", name, "path"], &vehicle.path));
         self.path.as_ref().map(|path| (vec!["path"], path)).or_else(named)
     }
 
-    /// Names of the frames besides space and the first vehicle, in the order of the core's: vehicles, the ground, panels.
+    /// Names of the frames besides space and the first vehicle, in the core's order: vehicles, the ground, panels.
     pub(super) fn frame_names(&self) -> Vec<&str> {
         let vehicles = self.other_vehicles().map(|(name, _)| name.as_str());
         vehicles.chain([GROUND]).chain(self.frames.keys().map(String::as_str)).collect()
     }
 
-    /// The frame of this name; for a loose body its index among them, until its segment is known.
+    /// The frame of this name; for a loose body its index among loose bodies, until its segment is known.
     pub(super) fn frame_named(&self, name: &str) -> Option<Frame> {
         let is_first = self.path.is_none() && self.vehicles.get_index_of(name) == Some(0);
         match name {
@@ -170,7 +170,7 @@ impl Scenario {
         (vehicle.is_none() || self.vehicle_of(frame) == Some(frame)).then_some(frame)
     }
 
-    /// Whether a body with a home can touch what is fixed to a frame.
+    /// Whether a body with this home can touch objects fixed to a frame.
     pub(super) fn is_met(&self, meets: Meets, frame: Frame, home: Frame) -> bool {
         let of = self.vehicle_of(frame);
         match meets {
@@ -187,7 +187,7 @@ impl Scenario {
 }
 
 impl Builder<'_> {
-    /// The frame that is named at `path`; "vehicle" if absent.
+    /// The frame named at `path`; "vehicle" if absent.
     pub(super) fn frame(&mut self, scenario: &Scenario, path: &str, name: Option<&str>) -> Frame {
         let Some(name) = name else { return Frame::Vehicle };
         scenario.frame_named(name).unwrap_or_else(|| {
@@ -200,7 +200,7 @@ impl Builder<'_> {
     }
 }
 
-/// The frames besides space and the first vehicle; none if nothing is fixed to any.
+/// The frames besides space and the first vehicle; none if nothing is attached to any.
 pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<OtherFrame> {
     let is_needed = !s.vehicles.is_empty() || !s.frames.is_empty() || s.ground.is_some() || s.has_several();
     let names = s.surfaces.values().map(|own| own.frame.as_deref()).chain(s.solids.values().map(SolidSection::frame));
@@ -241,7 +241,7 @@ pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<Ot
     list
 }
 
-/// Reports names of vehicles, frames and loose bodies that are taken.
+/// Reports duplicate names of vehicles, frames and loose bodies.
 fn check_names(b: &mut Builder, s: &Scenario) {
     let known = s.frame_names();
     for (i, name) in known.iter().enumerate() {
@@ -270,7 +270,7 @@ pub(super) fn moving(b: &mut Builder, at: &[&str], section: &PathSection, gravit
     path
 }
 
-/// The ground as a surface, behind all others.
+/// The ground as a surface, after all others.
 pub(super) fn ground(s: &Scenario) -> Option<Surface> {
     let section = s.ground.as_ref()?;
     let below_m = si_or(&section.below, 0.0);

@@ -8,7 +8,7 @@ use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Force, Length, Quantity, Ratio, Time};
 use occupant_core::forces::function::{Beyond, Function};
 
-/// μ of a limiter: a torsion bar does not wind back.
+/// Returned fraction of a limiter's work: a torsion bar does not wind back.
 const LIMITER_RETURNS: f64 = 0.01;
 
 /// Webbing: tension over strain, linear between points.
@@ -80,7 +80,7 @@ impl LimiterSection {
     }
 }
 
-/// Straight lines through points, of which unloading returns one share, or one of each interval.
+/// A piecewise linear function, with one returned fraction, or one per interval.
 pub(super) fn function(
     points: Vec<[f64; 2]>,
     beyond: &Option<Beyond>,
@@ -95,7 +95,7 @@ pub(super) fn function(
     }
 }
 
-/// A list; empty where none is written.
+/// A list; empty if absent.
 pub(super) fn listed<const KIND: usize, const RANGE: usize>(
     list: &Option<Vec<Quantity<KIND, RANGE>>>,
 ) -> &[Quantity<KIND, RANGE>] {

@@ -74,7 +74,7 @@ pub(crate) struct JointSection {
 pub(crate) struct StopSection {
     /// Angle at which the damping starts to grow.
     pub(crate) begin: Angle,
-    /// Angle from which on it is full.
+    /// Angle from which the damping is full.
     pub(crate) full: Angle,
     /// J_S, the full damping.
     pub(crate) damping: RotationalDamping<NOT_NEGATIVE>,
@@ -98,7 +98,7 @@ pub(super) fn joints(b: &mut Builder, section: &JointsSection, tree: &'static Tr
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
 }
 
-/// Refuses the active neck of a preset, and warns of the passive one, in a tree whose neck is one joint.
+/// Refuses the active neck of a preset, and warns about the passive one, if the neck of the tree is a single joint.
 pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
     if !OF_PEOPLE.contains(&preset) || tree.joint_named("neck").is_none() || tree.joint_named("neck_base").is_some() {
         return;
@@ -110,7 +110,7 @@ pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
     b.report(problem("joints.preset".to_owned(), found, expected.to_owned()).with_hint(Some(why)));
 }
 
-/// The properties of a joint; none if its damping is missing, which is reported for all joints at once.
+/// Properties of a joint; none without damping, which is reported for all joints at once.
 fn given(b: &Builder, name: &str) -> Option<JointSection> {
     said_of(b, name).filter(|section| section.damping.is_some())
 }

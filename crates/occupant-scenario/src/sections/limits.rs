@@ -86,7 +86,7 @@ pub(crate) struct StopTorqueSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FrictionSection {
-    /// Its moment at full sliding.
+    /// Friction moment when sliding.
     pub(crate) torque: Moment<NOT_NEGATIVE>,
     /// Speed at which it reaches 71 % of that moment; 12 deg/s if absent.
     pub(crate) speed: Option<AngularVelocity<POSITIVE>>,
@@ -102,7 +102,7 @@ pub(crate) struct LockSection {
     pub(crate) until: Option<Moment<POSITIVE>>,
     /// Stiffness while locked; if absent, such that `until` is reached at 2°.
     pub(crate) stiffness: Option<RotationalStiffness<POSITIVE>>,
-    /// True: instead of opening, the lock slips and keeps that moment.
+    /// True: instead of opening, the lock slips at that moment.
     pub(crate) slips: Option<bool>,
     /// An open lock closes again once the joint has been slower than this for 5 ms; never if absent.
     pub(crate) relock_below: Option<AngularVelocity<POSITIVE>>,

@@ -42,11 +42,11 @@ pub(crate) struct OccupantSection {
     pub(crate) body: BodySection,
     /// Its joints.
     pub(crate) joints: JointsSection,
-    /// How it sits.
+    /// Its seated posture.
     pub(crate) posture: Option<PostureSection>,
-    /// How it stands or walks.
+    /// Its standing posture.
     pub(crate) stance: Option<StanceSection>,
-    /// A rig that holds a segment of it.
+    /// A mount that holds one of its segments.
     pub(crate) mount: Option<MountSection>,
     /// Its muscles.
     pub(crate) muscles: Option<MusclesSection>,
@@ -106,11 +106,11 @@ pub(crate) struct LooseSphereSection {
     pub(crate) radius: Length<POSITIVE>,
 }
 
-/// Keys of an occupant, which are at the top of a scenario with one.
+/// Keys of an occupant, which are top-level keys of a scenario with one occupant.
 const OWN: [&str; 10] =
     ["body", "joints", "posture", "stance", "mount", "muscles", "markers", "belts", "retractors", "self_contact"];
 
-/// The tree of a scenario with one of its occupants alone in the same world.
+/// The tree of a scenario with a single one of its occupants.
 pub(crate) fn alone(root: &Node, occupant: &str) -> Option<Node> {
     let own = root.get("occupants")?.get(occupant)?.clone();
     let mut root = root.clone();
@@ -182,7 +182,7 @@ fn home_of(b: &mut Builder, s: &Scenario, path: &str, vehicle: Option<&str>) -> 
     })
 }
 
-/// A loose body alone in the world.
+/// A loose body alone in its surroundings.
 fn loose(b: &mut Builder, name: &str, section: &LooseSection, world: &Setup) -> Setup {
     let cg = section.cg.as_ref().map_or_else(Vector3::zeros, |cg| Vector3::from(all_si(cg)));
     if cg.z < 0.0 {
@@ -222,7 +222,7 @@ fn loose(b: &mut Builder, name: &str, section: &LooseSection, world: &Setup) -> 
     setup
 }
 
-/// All members in their world.
+/// All members with their common surroundings.
 fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String, Frame, Setup)>) -> Setup {
     let counts: Vec<usize> = members.iter().map(|(_, _, setup)| setup.body.segments.len()).collect();
     let first_loose = members.len() - s.loose.len();
@@ -275,7 +275,7 @@ fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String,
     world.together(members, &pairs, &skins)
 }
 
-/// Reports bodies that pass through surfaces of another vehicle because these do not say which bodies can touch them.
+/// Reports bodies that pass through surfaces of another vehicle whose `meets` is not given.
 fn warn_of_unmet(b: &mut Builder, s: &Scenario, world: &Setup, members: &[(String, Frame, Setup)]) {
     let surfaces = s.surfaces.iter().zip(&world.surfaces).filter(|((_, own), _)| own.meets.is_none());
     let surfaces: Vec<_> = surfaces.map(|((name, _), surface)| (name, surface.frame)).collect();

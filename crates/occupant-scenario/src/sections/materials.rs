@@ -26,8 +26,8 @@ pub(crate) struct MaterialSection {
         "head_dummy", "head_dummy_1973"
     ]))]
     pub(crate) library: Option<String>,
-    /// Name of a surface file, relative to the scenario, as `occupant surface` writes it. Other keys override its values; what
-    /// it says was not measured must be given here.
+    /// Name of a surface file, relative to the scenario, as written by `occupant surface`. Other keys override its
+    /// values; values not measured must be given here.
     pub(crate) file: Option<String>,
     /// K₁, stiffness up to `delta_b` against one sphere. Three spheres of a part that touch are three times as stiff (a
     /// sphere's `share` scales its force). 0 is a gap before the spring bears.
@@ -78,7 +78,7 @@ pub(crate) struct MaterialSection {
     pub(crate) friction_over_slip: Option<SlipSection>,
     /// Factor on friction over normal force.
     pub(crate) friction_over_force: Option<LoadSection>,
-    /// Whether crush is remembered after contact has ended; "reset" if absent.
+    /// Whether crush is stored after contact has ended; "reset" if absent.
     pub(crate) memory: Option<Memory>,
     /// A pane: each surface or solid of this material, or each group of solids, breaks as a whole.
     pub(crate) breaks: Option<BreaksSection>,
@@ -100,7 +100,7 @@ pub(crate) struct BreaksSection {
     pub(crate) left: Option<Vec<Force<NOT_NEGATIVE>>>,
 }
 
-/// The quadratic unloading of the ATB program. It returns `r` only as far as the curve allows; the program reports the
+/// The quadratic unloading of the ATB program. The returned fraction is limited by the curve; the program reports the
 /// actual value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -122,7 +122,7 @@ pub(crate) struct AtbSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PolynomialSection {
-    /// Largest depth for which it holds.
+    /// Largest depth in its range.
     pub(crate) depth: Length<POSITIVE>,
     /// F₁, F₂ and F₃: value of each term at that depth.
     pub(crate) force: [Force; 3],
@@ -148,7 +148,7 @@ pub(crate) struct RateSection {
     pub(crate) factor: Vec<Ratio<NOT_NEGATIVE>>,
 }
 
-/// A damper: `force` at `speed`, in proportion to the speed, from a depth on.
+/// A damper: `force` at `speed`, proportional to the speed, with full effect from a depth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DamperSection {
@@ -156,7 +156,7 @@ pub(crate) struct DamperSection {
     pub(crate) force: Force<NOT_NEGATIVE>,
     /// A speed of deformation.
     pub(crate) speed: Speed<POSITIVE>,
-    /// Depth from which on it acts fully; 25 mm if absent.
+    /// Depth of full effect; 25 mm if absent.
     pub(crate) depth: Option<Length<POSITIVE>>,
 }
 
@@ -180,7 +180,7 @@ pub(crate) struct LoadSection {
     pub(crate) factor: Vec<Ratio<NOT_NEGATIVE>>,
 }
 
-/// Depth from which a damper acts fully, m.
+/// Default depth of a damper's full effect, m.
 const DAMPED_M: f64 = 0.025;
 
 /// All materials, in the order written.

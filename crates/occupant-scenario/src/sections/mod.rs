@@ -162,15 +162,15 @@ pub struct Scenario {
     /// Sources of the numbers: a path, such as `materials.seat`, and its source.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub provenance: IndexMap<String, String>,
-    /// When the run starts and ends.
+    /// Start and end of the run.
     pub(crate) time: TimeSection,
-    /// What is recorded.
+    /// Recorded outputs.
     pub(crate) output: Option<OutputSection>,
-    /// How the equations of motion are integrated; "adaptive" with the accuracy "engineering" if absent.
+    /// Time integration; "adaptive" with the accuracy "engineering" if absent.
     pub(crate) integrator: Option<IntegratorSection>,
     /// The interior of the first vehicle, by class and measured dimensions.
     pub(crate) car: Option<CarSection>,
-    /// Vehicles that drive, with tyres and a driver. They are simulated before the people.
+    /// Vehicles with tyres and a driver, simulated before the occupants.
     pub(crate) drive: Option<DriveSection>,
     /// Motion of the vehicle. With several vehicles, that of the one named "vehicle". If absent, the first of
     /// `vehicles` also takes that name.
@@ -193,13 +193,13 @@ pub struct Scenario {
     pub(crate) loose: IndexMap<String, LooseSection>,
     /// The occupant.
     pub(crate) body: Option<BodySection>,
-    /// How the occupant sits.
+    /// Seated posture of the occupant.
     pub(crate) posture: Option<PostureSection>,
-    /// Exact position and velocity at the start, instead of a posture.
+    /// Exact initial position and velocity, instead of a posture.
     pub(crate) initial_state: Option<InitialStateSection>,
-    /// A rig that holds a segment of the occupant, or of a part such as head and neck.
+    /// A mount that holds a segment of the occupant, or of a part such as head and neck.
     pub(crate) mount: Option<MountSection>,
-    /// How the occupant stands, instead of a posture.
+    /// Standing posture of the occupant, instead of a seated one.
     pub(crate) stance: Option<StanceSection>,
     /// Seats by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
@@ -211,7 +211,7 @@ pub struct Scenario {
     pub(crate) joint_sets: IndexMap<String, JointSection>,
     /// The occupant's muscles.
     pub(crate) muscles: Option<MusclesSection>,
-    /// Triggers by name: what fires a device.
+    /// Triggers of devices, by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) triggers: IndexMap<String, TriggerSection>,
     /// Markers by name: points of segments whose motion is recorded.

@@ -15,8 +15,8 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
 use placed_text::{Problem, with_key};
 
-/// A rig that holds a segment, such as a pendulum or a sled with a head and neck on it, or a bench with a leg. The body
-/// is attached to that segment, which moves with the frame: `path` is the path of the rig.
+/// A mount that holds a segment, such as a pendulum or a sled with head and neck, or a bench with a leg. The body is
+/// attached to that segment, which moves with the frame: `path` is the path of the mount.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MountSection {
@@ -26,8 +26,8 @@ pub(crate) struct MountSection {
     /// head and neck on an upper torso. Words such as `upper_arms` stand for both sides. None if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) without: Vec<String>,
-    /// Frame that it is fixed to; "vehicle", which moves by `path`, if absent. In "space", z is up and y left in
-    /// `place` and `let_go`; in all other frames z is down and y right. Roll, pitch and yaw mean the same in both.
+    /// Frame of the mount; "vehicle", which moves by `path`, if absent. In "space", z is up and y left in `place` and
+    /// `let_go`; in all other frames z is down and y right. Roll, pitch and yaw mean the same in both.
     pub(crate) frame: Option<MountFrame>,
     /// Mounting point, for which the load is given: from the segment's lower end, segment axes (X forward, Y left, Z up
     /// when standing); [0, 0, 0] if absent.
@@ -43,13 +43,13 @@ pub(crate) struct MountSection {
     /// Velocity relative to the frame, in its axes, with which the body is released at the start, such as a head that
     /// falls. If absent, the mount holds the body throughout.
     pub(crate) let_go: Option<[Speed; 3]>,
-    /// Angles of the other segments and of pins, as in `posture`, in the plane in which the mount faces. Other segments
-    /// are aligned with their parent.
+    /// Angles of the other segments and of pins, as in `posture`, in the plane that the mount faces. Other segments are
+    /// aligned with their parent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) posture: IndexMap<String, Angle>,
 }
 
-/// What a mount is fixed to.
+/// Frame of a mount.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum MountFrame {
@@ -91,7 +91,7 @@ pub(super) fn held(b: &mut Builder, section: &MountSection, body: &Body) -> Opti
     Some(held)
 }
 
-/// Initial state of a body that a mount holds or releases.
+/// Initial state of a body held or released by a mount.
 pub(super) fn beginning(b: &mut Builder, section: &MountSection, body: &Body) -> (InitialPosture, InitialVelocity) {
     let at = mounting(b, section, body);
     tell_of_space(b, section);
@@ -102,7 +102,7 @@ pub(super) fn beginning(b: &mut Builder, section: &MountSection, body: &Body) ->
     (InitialPosture::Placed(Box::new(placing)), InitialVelocity::Given(all_si(velocity).into()))
 }
 
-/// Warns if up is in another direction than in all other frames.
+/// Warns that z points up in this frame, unlike in all others.
 fn tell_of_space(b: &mut Builder, section: &MountSection) {
     let place = section.place.as_ref().map(|place| ("mount.place", point(place).z, "m"));
     let let_go = section.let_go.as_ref().map(|v| ("mount.let_go", all_si(v)[2], "m/s"));

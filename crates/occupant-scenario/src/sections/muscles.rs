@@ -55,8 +55,9 @@ pub(crate) struct MuscleSection {
     pub(crate) rise: Option<Time<POSITIVE>>,
     /// Time at which it relaxes to its tone; never if absent.
     pub(crate) until: Option<Time>,
-    /// Posture that it holds: [yaw, pitch, roll] of the outer segment from the joint's zero position; for a pin, pitch
-    /// is its angle. For a left joint give those of the right one; they are mirrored. The initial posture if absent.
+    /// Posture that it maintains: [yaw, pitch, roll] of the outer segment from the joint's zero position; for a pin,
+    /// pitch is its angle. For a left joint give those of the right one; they are mirrored. The initial posture if
+    /// absent.
     pub(crate) hold: Option<[Angle; 3]>,
     /// Its own torque on the outer segment at full activation, [about X forward, about Y left, about Z up] of the
     /// joint's axes on the inner segment; for a pin the second value bends it. For a left joint give that of the right
@@ -66,7 +67,7 @@ pub(crate) struct MuscleSection {
     pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
     /// Damping, at full activation.
     pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
-    /// Its reflex, which acts late.
+    /// Its reflex, with a delay.
     pub(crate) reflex: Option<ReflexSection>,
     /// Limit of the torque at full activation; none if absent.
     pub(crate) limit: Option<Moment<POSITIVE>>,

@@ -15,7 +15,7 @@ use super::{Force, Length, Ratio, Speed};
 use occupant_core::forces::chain::{NEVER, Next, Node, Site, Track};
 use occupant_core::forces::contact::surface::Frame;
 
-/// Speed at which webbing slides across a track for each kN beyond friction, m/s: a drag of 100 N·s/m.
+/// Sliding speed of webbing across a track per kN beyond friction, m/s: a drag of 100 N·s/m.
 const SLIDE_M_S: f64 = 10.0;
 
 /// A point that the webbing passes: a point of the vehicle (`at`), of a segment (`on`, `at`), an arc of a segment
@@ -36,23 +36,22 @@ pub(crate) struct NodeSection {
     /// Name of the sphere that the webbing wraps.
     pub(crate) sphere: Option<String>,
     /// Inner end, crown and outer end of an arc across which the webbing slides, in segment axes from the segment's
-    /// lower end. The webbing starts at the crown. It comes off beyond the outer end, or where it pulls away from the
-    /// body.
+    /// lower end. The webbing starts at the crown. It slides off beyond the outer end, or lifts off where it pulls away
+    /// from the body.
     pub(crate) track: Option<[[Length; 3]; 3]>,
     /// "left" or "right": the iliac wing of that side, a track on the pelvis for the lap belt, at an estimated
     /// position. Webbing that slides up off it lies on the abdomen.
     pub(crate) wing: Option<WingSide>,
-    /// For a wing: how far above its usual place on it the webbing begins; 0 if absent.
+    /// For a wing: initial height of the webbing above its usual position; 0 if absent.
     pub(crate) above: Option<Length>,
-    /// For a track: the body point that takes over the webbing once it has come off. If absent, the webbing then
-    /// touches nothing here.
+    /// For a track: the body point that supports the webbing after it has slid off. If absent, the webbing then has no
+    /// contact here.
     pub(crate) then: Option<NextSection>,
     /// Friction across a track; 0.3 if absent, 0.25 of a wing.
     pub(crate) across: Option<Ratio<NOT_NEGATIVE>>,
-    /// Speed at which webbing slides across a track, per kN beyond friction; 10 m/s if absent.
+    /// Sliding speed of webbing across a track, per kN beyond friction; 10 m/s if absent.
     pub(crate) slide_speed: Option<Speed<POSITIVE>>,
-    /// Direction away from the body, segment axes. Webbing that pulls that way comes off. If absent, it never comes
-    /// off.
+    /// Direction away from the body, segment axes. Webbing pulled that way lifts off. If absent, it never does.
     pub(crate) normal: Option<[Ratio; 3]>,
     /// Friction along the webbing; 0 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
@@ -60,13 +59,13 @@ pub(crate) struct NodeSection {
     pub(crate) tie: Option<bool>,
     /// Name of the retractor of the first node.
     pub(crate) retractor: Option<String>,
-    /// For a point of a segment: how far it follows the deflection of each plate, 0 to 1, by the plate's name; not at
-    /// all if absent. A sphere has its own `ride`.
+    /// For a point of a segment: share of each plate's deflection that it follows, 0 to 1, by the plate's name; none if
+    /// absent. A sphere has its own `ride`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) ride: IndexMap<String, Ratio>,
     /// "chest": a point of the upper torso follows the plates near it, depending on its position.
     pub(crate) lies_on: Option<PlaceRide>,
-    /// Force at which the webbing leaves it; never if absent.
+    /// Force at which the webbing releases from it; never if absent.
     pub(crate) strength: Option<Force<POSITIVE>>,
     /// Pretensioner that pulls this vehicle point.
     pub(crate) pretensioner: Option<StrokeSection>,
@@ -82,7 +81,7 @@ pub(crate) enum WingSide {
     Right,
 }
 
-/// A point of a segment that takes over the webbing.
+/// A point of a segment that supports webbing after it has slid off.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NextSection {
@@ -90,7 +89,7 @@ pub(crate) struct NextSection {
     pub(crate) on: String,
     /// Position from the segment's lower end, segment axes.
     pub(crate) at: [Length; 3],
-    /// How far it follows the deflection of each plate of that segment, 0 to 1, by the plate's name; not at all if
+    /// Share of the deflection of each plate of that segment that it follows, 0 to 1, by the plate's name; none if
     /// absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) ride: IndexMap<String, Ratio>,

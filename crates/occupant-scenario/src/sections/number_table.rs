@@ -13,12 +13,12 @@ use placed_text::{
     name_and_unit, one_of, shortened,
 };
 
-/// A column that a table may have.
+/// A possible column of a table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     /// Its name.
     pub name: &'static str,
-    /// Another name that means the same; empty if it has none.
+    /// An alias; empty if it has none.
     pub alias: &'static str,
     /// Index of its kind of quantity.
     pub kind: usize,
@@ -30,7 +30,7 @@ pub(super) const fn column(name: &'static str, kind: usize, required: bool) -> C
     Column { name, alias: "", kind, required }
 }
 
-/// A table in SI units, angles in radians; one value for each of the columns asked for.
+/// A table in SI units, angles in radians, with the requested columns.
 #[derive(Clone, Debug)]
 pub(super) struct NumberTable {
     /// Lines of numbers.
@@ -54,7 +54,7 @@ impl NumberTable {
     }
 }
 
-/// Reads a CSV text; `names` are those of its columns with their units, which replace its own headings.
+/// Reads a CSV text; `names` gives columns with units instead of its own headings.
 ///
 /// # Errors
 /// Unknown, doubled and missing columns, wrong units, lines with too few or too many cells, cells that are no number.
@@ -128,7 +128,7 @@ struct Reader<'a> {
     separator: Separator,
     /// For each column of the table, the requested column and the SI units in one of its unit.
     columns: Vec<Option<(usize, f64)>>,
-    /// The columns of the table that are not read.
+    /// Columns of the table that are ignored.
     left_out: Vec<usize>,
     problems: Diagnostics,
 }
@@ -152,7 +152,7 @@ impl<'a> Reader<'a> {
         self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
     }
 
-    /// Headings; `unit` gives the units that the table states for its columns.
+    /// Headings; `unit` gives the units stated by the table.
     fn header<'u>(&mut self, cells: &[Cell], unit: impl Fn(usize) -> Option<&'u str>, span: Span) {
         for (i, cell) in cells.iter().enumerate() {
             let column = self.column(cell, unit(i));
@@ -174,7 +174,7 @@ impl<'a> Reader<'a> {
         self.wanted.iter().map(|column| column.name).collect()
     }
 
-    /// The column that has this name, or this heading of a recorder.
+    /// The column with this name, or with this recorder heading.
     fn place(&self, name: &str) -> Option<usize> {
         let named =
             |name: &str| self.wanted.iter().position(|c| c.name == name || (c.alias == name && !name.is_empty()));

@@ -35,7 +35,7 @@ pub(crate) enum PathSection {
     Drive(Box<DrivenPathSection>),
 }
 
-/// Where the vehicle is. Angles are yaw, then pitch, then roll.
+/// Pose of the vehicle. Angles are yaw, then pitch, then roll.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PoseSection {
@@ -49,7 +49,7 @@ pub(crate) struct PoseSection {
     pub(crate) yaw: Option<Angle>,
 }
 
-/// A table of times, places and angles.
+/// A table of times, positions and angles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"]}))]
@@ -81,7 +81,7 @@ pub(crate) struct TableSection {
     pub(crate) after: Option<AfterEnd>,
 }
 
-/// Order of the rotations of a vehicle, each about the axis that the previous ones have turned.
+/// Order of the rotations of a vehicle, each about an axis rotated by the previous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum AngleOrder {
@@ -115,7 +115,7 @@ impl PathSection {
 }
 
 impl Scenario {
-    /// All paths and their places in the text.
+    /// All paths with their positions in the text.
     pub(crate) fn paths(&self) -> Vec<(String, &PathSection)> {
         let named = |key: &str, name: &str| with_key(&with_key(key, name), "path");
         let vehicles = self.vehicles.iter().map(|(name, own)| (named("vehicles", name), &own.path));

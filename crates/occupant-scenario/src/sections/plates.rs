@@ -20,13 +20,13 @@ use occupant_core::forces::plate::{Band, Damper};
 use occupant_core::model::seating::InitialPosture;
 use placed_text::with_key;
 
-/// Distance beside a plate, and above or below it, at which webbing still presses it in, for the reference person, m.
+/// Distance from a plate, laterally and vertically, within which webbing loads it, for the reference person, m.
 const TENT_M: [f64; 2] = [0.13, 0.15];
-/// Height above a plate's mass at which webbing presses it in most, for the reference person, m. A belt that lies as in
-/// Shaw's sled tests then bears on the sternum with 0.35 of its force.
+/// Height above a plate's mass at which webbing loads it most, for the reference person, m. A belt as in Shaw's sled
+/// tests then loads the sternum with 0.35 of its force.
 const TENT_ABOVE_M: f64 = 0.046;
 
-/// Whose chest it is.
+/// Choice of a chest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ChestChoice {
@@ -41,7 +41,7 @@ pub(crate) enum ChestChoice {
 }
 
 impl ChestChoice {
-    /// As a scenario writes it.
+    /// Name in scenarios.
     pub(crate) fn name(self) -> &'static str {
         match self {
             ChestChoice::Rigid => "rigid",
@@ -56,19 +56,19 @@ impl ChestChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum PelvisChoice {
-    /// It does not.
+    /// Rigid.
     Rigid,
-    /// Flesh between belt and bone; all of its numbers are guesses.
+    /// Flesh between belt and bone; all of its values are guesses.
     Flesh,
 }
 
-/// Whether there is an abdomen.
+/// Whether the body has an abdomen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum AbdomenChoice {
-    /// There is none.
+    /// None.
     Rigid,
-    /// A sphere that deforms under everything that touches it.
+    /// A sphere that deforms under all contacts.
     Person,
 }
 
@@ -153,22 +153,22 @@ pub(crate) struct BodyViscousSection {
     pub(crate) time: Time<POSITIVE>,
 }
 
-/// How a sphere goes along with plates, by what touches it: shares from 0 to 1 of their deflections, by their names.
+/// Share of each plate's deflection that a sphere follows, 0 to 1, by plate name and contact type.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RideSection {
-    /// When touched by surfaces, solids and other spheres.
+    /// In contact with surfaces, solids and other spheres.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) contact: IndexMap<String, Ratio>,
-    /// When touched by belts.
+    /// In contact with belts.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) belt: IndexMap<String, Ratio>,
-    /// When touched by air bags.
+    /// In contact with air bags.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) bag: IndexMap<String, Ratio>,
 }
 
-/// What a node of a belt lies on; its position there determines how far it follows the plates.
+/// Support of a belt node; its position there determines the share of each plate's deflection that it follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum PlaceRide {
@@ -238,7 +238,7 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// None for a plate that only links hold.
+    /// The band of a plate; none for a plate held only by links.
     fn band(&self, b: &mut Builder, path: &str, name: &str, of: Shares) -> Option<Band> {
         if self.spring.is_none() && self.damper.is_none() && self.viscous.is_none() {
             return None;
@@ -272,13 +272,13 @@ impl BodySpringSection {
     }
 }
 
-/// How a sphere rides on plates of `body`.
+/// Shares of plate deflections that a sphere of `body` follows.
 pub(super) fn ride(b: &mut Builder, path: &str, s: &RideSection, body: &Body) -> Ride {
     let mut on = |key: &str, named: &IndexMap<String, Ratio>| shares(b, &format!("{path}.ride.{key}"), named, body);
     Ride { contact: on("contact", &s.contact), belt: on("belt", &s.belt), bag: on("bag", &s.bag) }
 }
 
-/// Plates with numbers, by their names.
+/// Plates with numbers, by name.
 pub(super) fn shares(b: &mut Builder, path: &str, named: &IndexMap<String, Ratio>, body: &Body) -> Shares {
     let mut list = Vec::new();
     for (name, share) in named {
@@ -293,7 +293,7 @@ pub(super) fn shares(b: &mut Builder, path: &str, named: &IndexMap<String, Ratio
     list
 }
 
-/// How a node at a place of `body` rides.
+/// Shares of plate deflections that a node at a position on `body` follows.
 pub(super) fn node(b: &mut Builder, path: &str, s: &NodeSection, site: &Site, body: &Body) -> Shares {
     if s.ride.is_empty() && s.lies_on.is_none() {
         return Vec::new();
@@ -310,7 +310,7 @@ pub(super) fn node(b: &mut Builder, path: &str, s: &NodeSection, site: &Site, bo
     if s.lies_on.is_some() { by_place(body, segment, at) } else { shares(b, &with_key(path, "ride"), &s.ride, body) }
 }
 
-/// Shares that fall from 1 at a plate to 0 at the edge of its tent.
+/// Shares that decrease from 1 at a plate to 0 at the edge of its range.
 fn by_place(body: &Body, segment: usize, at: Point3<f64>) -> Shares {
     let (reference, name) = (Body::male50(), body.tree[body.tree.segment(segment)].name);
     let length_m = |body: &Body| Some(body.segment(body.tree.segment_named(name)?).length_m);
@@ -324,7 +324,7 @@ fn by_place(body: &Body, segment: usize, at: Point3<f64>) -> Shares {
     own.map(|(i, plate)| (i, share(plate))).filter(|(_, share)| *share > 0.0).collect()
 }
 
-/// The chest that results report; none for a body whose chest is rigid.
+/// The chest in the results; none if it is rigid.
 pub(super) fn chest(b: &mut Builder, section: &BodySection, body: &Body) -> Option<Chest> {
     let choice = section.chest.filter(|choice| *choice != ChestChoice::Rigid);
     let place = |name: &str| body.plates.iter().position(|plate| plate.name == name);
@@ -352,7 +352,7 @@ pub(super) fn chest(b: &mut Builder, section: &BodySection, body: &Body) -> Opti
 /// (Shaw 2009).
 const UPPER: [f64; 2] = [0.65, 0.19];
 
-/// Surfaces, and solids behind them, that the spine leans on.
+/// Surfaces, and solids behind them, that support the spine.
 pub(super) fn behind(
     scenario: &Scenario,
     (surfaces, solids): (&[Surface], &[Solid]),

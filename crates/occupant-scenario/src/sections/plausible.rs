@@ -13,8 +13,7 @@ use placed_text::{Problem, Step, child, follow, number, parse_path, targets, to_
 
 /// The usual range of one kind of number, and the likely mistake of an unusual one.
 struct Usual {
-    /// Paths of such numbers in an explicit scenario, or of what represents a number made of several; for a list its
-    /// norm.
+    /// Paths of such numbers in an explicit scenario, or of a representative of several; for a list its norm.
     paths: &'static [&'static str],
     values: RangeInclusive<f64>,
     unit: &'static str,

@@ -17,7 +17,7 @@ use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating, Se
 use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
 use placed_text::{Problem, with_key};
 
-/// A place to sit.
+/// A seat.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SeatSection {
@@ -29,7 +29,7 @@ pub(crate) struct SeatSection {
     pub(crate) y: Option<Length>,
 }
 
-/// How the occupant sits. Angles lean the top of a segment back from the vehicle's vertical.
+/// Seated posture. Angles are pitch from the vehicle's vertical, positive leaning the top of a segment backward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(extend("x-at-most-one" = [["moves_with_vehicle", "velocity"], ["hands", "upper_arms"], ["hands", "elbows"]]))]
 pub(crate) struct PostureSection {
@@ -54,22 +54,22 @@ pub(crate) struct PostureSection {
     /// True: move the seated body, as one piece, into balance with cushion, back and belts. False: the seating of the
     /// 1970 report. True if absent.
     pub(crate) settle: Option<bool>,
-    /// True: all joints are limp while the body settles, as in sleep, until limits, springs, locks and contacts carry
-    /// it. The posture is where it starts to sink from. False if absent.
+    /// True: all joints are limp while the body settles, until limits, springs, locks and contacts carry it; `posture`
+    /// is the start of settling. False if absent.
     pub(crate) limp: Option<bool>,
     /// True: every point starts with the velocity of the vehicle at that point. False: all points start with the
     /// velocity of the vehicle's origin. True if absent.
     pub(crate) moves_with_vehicle: Option<bool>,
     /// Initial velocity of every point, vehicle axes, instead of that of the vehicle.
     pub(crate) velocity: Option<[Speed; 3]>,
-    /// Further angles by the names of segments, `neck`, or of pins; `left_upper_arm` and `right_upper_arm` stand for
-    /// one each. Other segments are aligned with their parent.
+    /// Further angles by the names of segments, `neck`, or of pins; `left_upper_arm` and `right_upper_arm` give one
+    /// side only. Other segments are aligned with their parent.
     #[serde(flatten)]
     pub(crate) others: IndexMap<String, Angle>,
 }
 
 impl PostureSection {
-    /// The angles that a seated person is known to need.
+    /// Angles required for a seated person.
     fn usual(&self) -> [(&'static str, &Option<Angle>); 6] {
         [
             ("middle_torso", &self.middle_torso),
@@ -106,7 +106,7 @@ pub(crate) struct InitialStateSection {
     pub(crate) passed: Option<Vec<[String; 2]>>,
 }
 
-/// Position and velocity at the start.
+/// Initial position and velocity.
 pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {
     if let Some(mount) = &s.mount {
         let (posture, velocity) = beginning(b, mount, body);
@@ -171,7 +171,7 @@ fn check_angles(b: &mut Builder, p: &PostureSection, tree: &Tree) {
     unknown_angles(b, "posture", p.angles().map(|(name, _)| name), &words);
 }
 
-/// The names for angles of these segments: their own, those of their hinges, and those of both sides.
+/// Names of the angles of these segments: their own, those of their hinges, and those of both sides.
 pub(super) fn angle_words(tree: &Tree, is_asked: impl Fn(Segment) -> bool) -> Vec<String> {
     let words = tree.segments().filter(|segment| is_asked(*segment)).flat_map(|segment| {
         let joint = tree.bearer(segment).map(|joint| &tree[joint]);
@@ -181,7 +181,7 @@ pub(super) fn angle_words(tree: &Tree, is_asked: impl Fn(Segment) -> bool) -> Ve
     words.collect()
 }
 
-/// Reports the names at `path` that are none of these words.
+/// Reports unknown names at `path`.
 pub(super) fn unknown_angles<'n>(b: &mut Builder, path: &str, names: impl Iterator<Item = &'n str>, words: &[String]) {
     let known: Vec<&str> = words.iter().map(String::as_str).collect();
     for name in names.filter(|name| !known.contains(name)) {
@@ -198,7 +198,7 @@ fn velocity(p: &PostureSection) -> InitialVelocity {
     }
 }
 
-/// The exact state, with the pairs that have passed where they are given.
+/// The exact state, with the pairs that have passed each other, if given.
 fn state_of(b: &mut Builder, s: &Scenario, state: &InitialStateSection, body: &Body) -> Option<InitialPosture> {
     let coordinates = Box::new(coordinates(b, state)?);
     let Some(pairs) = &state.passed else { return Some(InitialPosture::Coordinates(coordinates)) };

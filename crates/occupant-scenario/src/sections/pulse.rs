@@ -20,7 +20,7 @@ use placed_text::{Problem, SourceId};
     "dependentRequired" = {"rows": ["columns"]},
 ))]
 pub(crate) struct PulseSection {
-    /// Name of a pulse of the library, such as one of a test of seats from behind. Other keys override its values.
+    /// Name of a pulse of the library, such as that of a rear-impact seat test. Other keys override its values.
     #[schemars(extend("enum" = ["iiwpg_16", "fmvss_202a", "sra_16", "sra_24"]))]
     pub(crate) library: Option<String>,
     /// Pulse shape: deceleration over time. Needed, unless `library` has it.
@@ -111,10 +111,10 @@ pub(super) fn path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) ->
     Some(path)
 }
 
-/// A pulse that removes this many times the speed is one that somebody mistyped, or whose vehicle rebounds.
+/// Delta-v over speed above which a pulse is probably mistyped, unless the vehicle rebounds.
 const TOO_MUCH: f64 = 1.02;
 
-/// Warns of a pulse that goes on when the vehicle has stopped, and of a table that speeds the vehicle up.
+/// Warns of a pulse that continues after the vehicle has stopped, and of a table that accelerates the vehicle.
 fn doubt(b: &mut Builder, path: &PulsePath) {
     let km_h = |m_s: f64| format!("{:.1} km/h", 3.6 * m_s);
     let lost = path.pulse_delta_v_m_s();
@@ -195,6 +195,6 @@ fn refuse_foreign_keys(b: &mut Builder, kind: PulseShape) {
     let known = keys_of(kind);
     let keys = ["peak", "delta_v", "duration", "peak_fraction", "rise", "plateau", "fall", "file", "columns", "rows"];
     let foreign: Vec<&str> = keys.into_iter().filter(|key| !known.contains(key)).collect();
-    let expected = format!("of these keys only {}", known.join(", "));
+    let expected = format!("this shape takes only {}", known.join(", "));
     b.refuse_keys("path", &foreign, |key| format!("this pulse shape does not use `{key}`"), &expected);
 }

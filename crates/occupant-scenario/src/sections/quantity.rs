@@ -40,7 +40,7 @@ impl<const KIND: usize, const RANGE: usize> From<Written> for Quantity<KIND, RAN
 }
 
 impl<const KIND: usize, const RANGE: usize> Quantity<KIND, RANGE> {
-    /// What it measures.
+    /// Its kind.
     pub(super) const KIND: &'static Kind = &KINDS[KIND];
 
     /// A number in SI units, angles in radians, without a source text.

@@ -15,7 +15,7 @@ use occupant_core::forces::chain::{Cue, Device, NEVER, Pull, Reel, Stroke};
 use occupant_core::forces::function::Function;
 use placed_text::with_key;
 
-/// Time in which the force moves to a second limiter, s.
+/// Transition time to a second limiter, s.
 const SWITCH_S: f64 = 5e-3;
 /// Maximum pull-in speed of a pretensioner given by force, m/s.
 const PULL_M_S: f64 = 15.0;
@@ -28,7 +28,7 @@ pub(crate) struct RetractorSection {
     pub(crate) on_spool: Option<Length<POSITIVE>>,
     /// Tension while it is open; 6 N if absent.
     pub(crate) spool_tension: Option<Force<POSITIVE>>,
-    /// What locks it. If absent, only a pretensioner does.
+    /// Its lock. If absent, only a pretensioner locks it.
     pub(crate) lock: Option<LockSection>,
     /// Name of the load limiter. If absent, the locked retractor pays out nothing.
     pub(crate) limiter: Option<String>,
@@ -38,7 +38,7 @@ pub(crate) struct RetractorSection {
     pub(crate) pretensioner: Option<PullSection>,
 }
 
-/// What locks a retractor.
+/// Lock of a retractor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LockSection {
@@ -50,7 +50,7 @@ pub(crate) struct LockSection {
     pub(crate) within: Option<Time<NOT_NEGATIVE>>,
 }
 
-/// A limiter that takes over from the first.
+/// A second limiter, which replaces the first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SecondLimiterSection {
@@ -91,7 +91,7 @@ pub(crate) struct StrokeSection {
     pub(crate) trigger: String,
     /// Time from the trigger until it acts; 0 if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
-    /// Direction of pull away from the belt, vehicle axes; down and back if absent.
+    /// Direction of the pull, away from the belt, vehicle axes; down and back if absent.
     pub(crate) direction: Option<[Ratio; 3]>,
     /// Times since it began to act, from 0.
     pub(crate) times: Vec<Time<NOT_NEGATIVE>>,

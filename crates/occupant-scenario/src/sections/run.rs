@@ -14,7 +14,7 @@ use occupant_core::model::accuracy::Accuracy;
 use occupant_core::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
 use placed_text::number;
 
-/// When the run starts and ends.
+/// Start and end of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimeSection {
@@ -27,7 +27,7 @@ pub(crate) struct TimeSection {
     pub(crate) stop_at_rest: Option<bool>,
 }
 
-/// What is recorded.
+/// Recorded outputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OutputSection {
@@ -37,7 +37,7 @@ pub(crate) struct OutputSection {
     pub(crate) report_coordinates: Option<bool>,
 }
 
-/// How the equations of motion are integrated.
+/// Time integration of the equations of motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 #[schemars(transform = kind_goes_without_saying)]
@@ -100,7 +100,7 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
     span
 }
 
-/// The integrator: tolerances that are written, or those of an accuracy over the length of the run.
+/// The integrator, with given tolerances, or those of an accuracy over the length of the run.
 pub(super) fn integrator(b: &mut Builder, s: &Scenario, time: &TimeSpan) -> Integrator {
     let asked = |accuracy: Option<Accuracy>| accuracy.unwrap_or_default().integrator(time.end_s - time.start_s);
     let a = match &s.integrator {

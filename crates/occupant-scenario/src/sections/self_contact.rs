@@ -19,8 +19,8 @@ pub(crate) struct SelfContactSection {
     /// Skin materials of single parts, by the names of parts or spheres.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) skins: IndexMap<String, String>,
-    /// Pairs of parts that can touch. If absent: hands, elbows, knees, thighs, shins and feet with what they can reach.
-    /// Parts that share a joint, or overlap in a standing body, never touch.
+    /// Pairs of parts that can touch. If absent: hands, elbows, knees, thighs, shins and feet with the parts within
+    /// their reach. Parts that share a joint, or overlap in a standing body, never touch.
     pub(crate) pairs: Option<Vec<[String; 2]>>,
 }
 

@@ -17,7 +17,7 @@ use occupant_core::vehicle::{
 };
 use placed_text::{Diagnostic, Problem, SourceId};
 
-/// What sensors in the vehicle recorded, along its axes: x forward, y right, z down.
+/// Recordings of sensors in the vehicle, along its axes: x forward, y right, z down.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"], "baseline_end": ["baseline"]}))]
@@ -71,7 +71,7 @@ pub(crate) struct SensorsSection {
     pub(crate) after: Option<AfterEnd>,
 }
 
-/// Which way the axes of sensors and tables point.
+/// Direction of the axes of sensors and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SensorAxes {
@@ -119,7 +119,7 @@ pub(super) const COLUMNS: [Column; 9] = [
     column("dvy", kind::SPEED, false),
 ];
 
-/// How many of them come before the velocity changes.
+/// Number of columns before the velocity changes.
 pub(super) const RECORDED: usize = 7;
 
 const fn rate(name: &'static str, alias: &'static str) -> Column {
@@ -190,7 +190,7 @@ fn record(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> Option<Se
     }))
 }
 
-/// Whether a record of velocity changes has no keys that are meaningless for it.
+/// Checks that a record of velocity changes has no inapplicable keys.
 fn check_delta_v(b: &mut Builder, table: &NumberTable) -> bool {
     let before = b.problems.len();
     for i in [1, 2, 3, 4, 5].into_iter().filter(|&i| table.present[i]) {

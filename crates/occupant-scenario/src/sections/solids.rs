@@ -34,7 +34,7 @@ macro_rules! kinds {
             pub(crate) struct $Section {
                 /// Name of its material in `materials`.
                 pub(crate) material: String,
-                /// What it is fixed to; "vehicle" if absent.
+                /// Frame that it is fixed to; "vehicle" if absent.
                 pub(crate) frame: Option<String>,
                 /// With several bodies, which ones can touch it, as for a surface; "all" if absent.
                 pub(crate) meets: Option<Meets>,
@@ -54,7 +54,7 @@ macro_rules! kinds {
                 if let SolidSection::Prism(prism) = self { prism.profile.as_deref() } else { None }
             }
 
-            /// Whether the spine leans on it.
+            /// Whether it supports the spine.
             pub(super) fn behind(&self) -> Option<bool> {
                 match self {
                     $(SolidSection::$Kind(s) => s.behind,)*

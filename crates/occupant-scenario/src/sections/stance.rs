@@ -14,7 +14,7 @@ use occupant_core::body::{Body, ContactSphere, both_sides};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
 
-/// How a body stands. It is raised or lowered until the feet carry it.
+/// Standing posture. The body is raised or lowered until the feet carry it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StanceSection {
@@ -34,7 +34,7 @@ pub(crate) struct StanceSection {
     pub(crate) posture: IndexMap<String, Angle>,
 }
 
-/// Angles to begin a stance with, degrees, by names of segments and pins and by both divisions of the body.
+/// Angles of the preset stances, degrees, by names of segments and pins, for both divisions of the body.
 #[rustfmt::skip]
 const STANCES: [(&str, &[(&str, f64)]); 3] = [
     ("standing", &[("left_upper_arm", -3.0), ("right_upper_arm", -3.0), ("left_elbow", -10.0), ("right_elbow", -10.0)]),
@@ -45,7 +45,7 @@ const STANCES: [(&str, &[(&str, f64)]); 3] = [
     ("none", &[]),
 ];
 
-/// How a body stands that has a `stance`.
+/// Initial state of a standing body.
 pub(super) fn stance(
     b: &mut Builder,
     s: &Scenario,
@@ -80,7 +80,7 @@ pub(super) fn stance(
     (InitialPosture::Placed(Box::new(placing)), InitialVelocity::Given(velocity))
 }
 
-/// From T1 down to the ground under a body that stands, m.
+/// Height of T1 above the ground of a standing body, m.
 fn leg_m(body: &Body) -> f64 {
     let lowest = |sphere: (&ContactSphere, Point3<f64>)| sphere.0.radius_m - sphere.1.z;
     body.spheres.iter().zip(body.standing_m()).map(lowest).fold(0.0, f64::max)

@@ -8,45 +8,45 @@ use super::quantity::{NOT_NEGATIVE, POSITIVE};
 use super::{Angle, Force, Length, Mass, Ratio, Speed, Stiffness};
 use crate::kind::UnitSystem;
 
-/// A real surface. `occupant surface` makes one from a record; a scenario takes it by `file` of a material.
+/// A real surface. `occupant surface` makes one from a record; a scenario refers to it by `file` of a material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SurfaceFile {
-    /// What it is, in one line, such as "knee bolster of a 1994 sedan, left".
+    /// Description in one line, such as "knee bolster of a 1994 sedan, left".
     pub(crate) title: String,
     /// Units of bare numbers; "si" if absent.
     pub(crate) units: Option<UnitSystem>,
-    /// What it does in contact: the keys of `materials.NAME` of a scenario.
+    /// Contact properties: the keys of `materials.NAME` of a scenario.
     pub(crate) material: MaterialSection,
-    /// What of it was measured.
+    /// Basis of each property.
     pub(crate) measured: MeasuredSection,
-    /// Where it comes from.
+    /// Provenance.
     pub(crate) provenance: OriginSection,
     /// 95 % intervals of fitted numbers.
     pub(crate) intervals: Option<IntervalSection>,
-    /// How the fitted surface reproduces the record.
+    /// Agreement of the fitted surface with the record.
     pub(crate) agreement: Option<AgreementSection>,
 }
 
-/// What stands behind the parts of a surface.
+/// Basis of the properties of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MeasuredSection {
-    /// Force over depth while the depth grows.
+    /// Loading curve.
     pub(crate) loading: Basis,
-    /// Force on the way back. If "not_measured", the scenario gives `returned`, `unload_slope` or another way back.
+    /// Unloading. If "not_measured", the scenario gives `returned`, `unload_slope` or another unloading.
     pub(crate) unloading: Basis,
     /// Friction. If "not_measured", the scenario gives `friction`.
     pub(crate) friction: Basis,
 }
 
-/// What stands behind a number.
+/// Basis of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Basis {
     /// Computed from a record.
     Measured,
-    /// Read off a printed curve or table.
+    /// Digitised from a printed curve or table.
     Digitised,
     /// An estimate.
     MadeUp,
@@ -58,32 +58,33 @@ pub(crate) enum Basis {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OriginSection {
-    /// Who measured it and where that is published: author, year, report number, figure or table; or the record and its owner.
+    /// Author and publication: author, year, report number, figure or table; or the record and its owner.
     pub(crate) source: String,
-    /// The part: make, model, year, place, how it was held.
+    /// Specimen: make, model, year, position, mounting.
     pub(crate) specimen: Option<String>,
-    /// The impactor in words: form, face, guided or free.
+    /// Description of the impactor: form, face, guided or free.
     pub(crate) impactor: Option<String>,
     /// Its mass.
     pub(crate) mass: Option<Mass<POSITIVE>>,
-    /// Radius of its face. A curve holds for this impactor: a larger or flatter one meets more force at the same depth.
+    /// Radius of its face. A curve is valid for this impactor: a larger or flatter one gives more force at the same
+    /// depth.
     pub(crate) radius: Option<Length<POSITIVE>>,
     /// Speed at first contact.
     pub(crate) speed: Option<Speed<NOT_NEGATIVE>>,
     /// Angle between the velocity and the normal of the surface; 0 if absent.
     pub(crate) angle: Option<Angle>,
-    /// When it was measured.
+    /// Date of the measurement.
     pub(crate) date: Option<String>,
-    /// What others may do with it, such as "CC0-1.0".
+    /// Licence for reuse, such as "CC0-1.0".
     pub(crate) licence: Option<String>,
     /// SHA-256 of the record.
     pub(crate) record_sha256: Option<String>,
-    /// What is to be known before it is used.
+    /// Caveats.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) caveats: Vec<String>,
 }
 
-/// Least and greatest value of each fitted number.
+/// Ranges of the fitted numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct IntervalSection {
@@ -97,7 +98,7 @@ pub(crate) struct IntervalSection {
     pub(crate) friction: Option<[Ratio; 2]>,
 }
 
-/// The impactor against the fitted surface, computed, and the record.
+/// Agreement of the computed impact on the fitted surface with the record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AgreementSection {
@@ -105,7 +106,7 @@ pub(crate) struct AgreementSection {
     pub(crate) peak_ratio: Ratio<NOT_NEGATIVE>,
     /// Computed greatest depth over that of the record.
     pub(crate) depth_ratio: Ratio<NOT_NEGATIVE>,
-    /// Computed work that is lost over that of the record; absent if there is no rebound.
+    /// Computed dissipated work over that of the record; absent if there is no rebound.
     pub(crate) lost_ratio: Option<Ratio<NOT_NEGATIVE>>,
     /// Root mean square difference of the forces over the measured peak.
     pub(crate) residual: Ratio<NOT_NEGATIVE>,

@@ -23,8 +23,8 @@ use placed_text::{Problem, with_key};
 pub(crate) struct SurfaceSection {
     /// Name of its material in `materials`.
     pub(crate) material: String,
-    /// What it is fixed to: "vehicle", "space", "ground", or the name of another vehicle, a frame or a loose body; "vehicle" if
-    /// absent.
+    /// Frame that it is fixed to: "vehicle", "space", "ground", or the name of another vehicle, a frame or a loose
+    /// body; "vehicle" if absent.
     pub(crate) frame: Option<String>,
     /// With several bodies, which ones can touch it: "own", those that start in its vehicle; "others", all except
     /// those; or "all". "own" if absent, because a surface has only one side; `check` then lists bodies that pass
@@ -71,7 +71,7 @@ pub(crate) struct DiscSection {
     pub(crate) normal: Option<[Ratio; 3]>,
 }
 
-/// A plane without bounds.
+/// An unbounded plane.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneSection {
@@ -81,11 +81,11 @@ pub(crate) struct PlaneSection {
     pub(crate) normal: [Ratio; 3],
 }
 
-/// How the open side is given.
+/// Definition of the open side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum FacingChoice {
-    /// Corners run counter-clockwise seen from the open side; a normal points to it.
+    /// Corners are counter-clockwise seen from the open side; a normal points to it.
     Order,
 }
 
@@ -103,7 +103,7 @@ pub(crate) struct ContactSection {
     pub(crate) bodies: Option<Vec<[String; 2]>>,
 }
 
-/// Where the edge force acts.
+/// Point of action of the edge force.
 pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
     s.contact.as_ref().and_then(|c| c.edge_force).unwrap_or_default()
 }
@@ -119,7 +119,7 @@ pub(super) fn surfaces(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec
     surfaces.into_iter().chain(ground(scenario)).collect()
 }
 
-/// The surface of the section at `path`.
+/// The surface defined at `path`.
 pub(super) fn surface(
     b: &mut Builder,
     scenario: &Scenario,

@@ -17,12 +17,12 @@ use crate::presets;
 use occupant_core::body::Body;
 use occupant_core::forces::function::Function;
 
-/// Belts placed by the seat and the body.
+/// Belts positioned from the seat and the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Preset {
-    /// A shoulder and a lap belt in one, from an upper anchor on one side over the shoulder, through a buckle on the other side, to
-    /// an anchor on the first: webbing slides through ring and buckle.
+    /// Shoulder and lap belt from one webbing: from an upper anchor on one side over the shoulder, through a buckle on
+    /// the other side, to an anchor on the first; it slides through ring and buckle.
     ThreePoint,
 }
 
@@ -37,7 +37,7 @@ pub(crate) enum Side {
     Right,
 }
 
-/// What a lap belt bears on.
+/// Support of a lap belt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Lap {
@@ -47,7 +47,7 @@ pub(crate) enum Lap {
     Wings,
 }
 
-/// From the pelvis back, outboard and down, m.
+/// Retractor position from the pelvis: back, outboard and down, m.
 const REEL_M: [f64; 3] = [0.40, 0.27, 0.12];
 const RING_M: [f64; 3] = [0.40, 0.27, -0.64];
 const BUCKLE_M: [f64; 3] = [0.06, -0.19, 0.04];
@@ -58,16 +58,16 @@ const TRUNK_M: f64 = 0.4617;
 const NOTCH_M: f64 = 0.02;
 const ADJUSTS_M: [f64; 2] = [-0.06, 0.04];
 
-/// Friction of a tongue that clamps the webbing: around its bend it holds a thousand times the tension.
+/// Friction of a clamping tongue: around its bend it holds a thousand times the tension.
 const CLAMPS: f64 = 3.0;
 
 /// Friction of webbing over a steel ring, a tongue and a clothed shoulder; our estimates, similar to ATB's.
 const FRICTION: [f64; 3] = [0.1, 0.15, 0.25];
 
-/// Forward lean of the plane of the track over the shoulder; our estimate.
+/// Forward lean of the track's plane over the shoulder; our estimate.
 const TRACK_LEANS_RAD: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
-/// Depth that a pelvis sinks into a cushion, m.
+/// Depth of a pelvis in a cushion, m.
 const SINKS_M: f64 = 0.03;
 
 /// Default webbing of a preset.
@@ -76,7 +76,7 @@ pub(super) fn webbing(b: &mut Builder) -> Function {
     webbing.map_or_else(|| Function::lines(Vec::new(), 1.0), |webbing| webbing.function(b, "webbings").0)
 }
 
-/// The nodes of a preset of the belt at `path`.
+/// Nodes of the preset belt at `path`.
 pub(super) fn nodes(
     b: &mut Builder,
     scenario: &Scenario,
@@ -144,7 +144,7 @@ fn adjusted_m(body: &Body) -> f64 {
 }
 
 /// Track across the outboard shoulder, from beside the neck over the clavicle to below the root of the arm, in a plane
-/// that leans forward: webbing bears on the front of a shoulder rather than on its top.
+/// that leans forward: webbing loads the front of a shoulder rather than its top.
 fn track(body: &Body, out: f64) -> NodeSection {
     let shoulder = &body.spheres[body.sphere(if out > 0.0 { "right_shoulder" } else { "left_shoulder" }).unwrap_or(0)];
     let (centre, r) = (shoulder.centre_from_lower_end_m, shoulder.radius_m);
@@ -182,7 +182,7 @@ fn normal([a, b]: [Vector2<f64>; 2], towards: Vector2<f64>) -> Vector2<f64> {
     normal * normal.dot(&towards).signum()
 }
 
-/// The edge of the side of a surface or solid that faces a direction most, as points x, z, m.
+/// The edge of a surface's or solid's side that faces a direction most, as points x, z, m.
 fn edge(scenario: &Scenario, name: &str, looks: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
     let point = |point: &[Length; 2]| Vector2::new(point[0].si(), point[1].si());
     if let Some(surface) = scenario.surfaces.get(name) {

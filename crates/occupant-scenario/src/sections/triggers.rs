@@ -16,7 +16,7 @@ use occupant_core::model::setup::{OtherFrame, TimeSpan};
 use occupant_core::vehicle::VehiclePath;
 use placed_text::{Problem, with_key};
 
-/// A trigger: what fires a device.
+/// A trigger of devices.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum TriggerSection {
@@ -98,7 +98,7 @@ impl TriggerSection {
     }
 }
 
-/// When triggers fire.
+/// Firing conditions of triggers.
 pub(super) struct Triggers<'s>(IndexMap<&'s str, Fires>);
 
 /// Paths of the vehicles.
@@ -110,7 +110,7 @@ pub(super) struct Paths<'p> {
     pub(super) others: &'p [OtherFrame],
 }
 
-/// When a trigger fires.
+/// Firing condition of a trigger.
 #[derive(Clone, Copy)]
 enum Fires {
     /// At a time, s.
@@ -152,7 +152,7 @@ const MOST: usize = 100;
 /// Largest duration of vehicle motion evaluated for all triggers together, s.
 const MOST_MOTION_S: f64 = 500.0;
 
-/// When each trigger fires; one that never does is omitted, with a warning.
+/// Firing time of each trigger; one that never fires is omitted, with a warning.
 pub(super) fn triggers<'s>(b: &mut Builder, scenario: &'s Scenario, paths: Paths<'_>, time: &TimeSpan) -> Triggers<'s> {
     let mut fires = IndexMap::new();
     if is_too_much(b, scenario, time) {
@@ -195,10 +195,10 @@ fn is_too_much(b: &mut Builder, scenario: &Scenario, time: &TimeSpan) -> bool {
     count > MOST || motion_s > MOST_MOTION_S
 }
 
-/// When a trigger fires, and its problems.
+/// Firing condition of a trigger, or its problems.
 type Found = Result<Option<Fires>, [&'static str; 2]>;
 
-/// Computes when triggers fire, each once.
+/// Computes firing times, each once.
 struct Search<'s> {
     scenario: &'s Scenario,
     paths: Paths<'s>,
@@ -207,7 +207,7 @@ struct Search<'s> {
 }
 
 impl<'s> Search<'s> {
-    /// When the trigger of this name fires; references to others are followed to `depth`.
+    /// Firing condition of the trigger with this name; references to others are followed to `depth`.
     fn found(&mut self, name: &'s str, depth: usize) -> Found {
         if let Some(known) = self.known.get(name) {
             return *known;
@@ -270,7 +270,7 @@ impl<'s> Search<'s> {
         .ok_or(["a trigger by the motion of something that is not a vehicle", "\"vehicle\" or a name under `vehicles`"])
     }
 
-    /// When other triggers fire, s; none for one that does not.
+    /// Firing times of other triggers, s; none for one that does not fire.
     fn times_s(&mut self, names: &'s [String], depth: usize) -> Result<Vec<Option<f64>>, [&'static str; 2]> {
         if depth == 0 {
             let found = "triggers that wait for one another in a loop";

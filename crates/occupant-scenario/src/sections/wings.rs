@@ -11,13 +11,13 @@ pub(super) use occupant_core::forces::chain::wing::ACROSS;
 use occupant_core::forces::chain::wing::{ANGLES_RAD, DRAG_N_S_M};
 use occupant_core::forces::chain::{Next, Track, Wing};
 
-/// Distance of a wing from the middle, as a fraction of the sphere's radius.
+/// Lateral position of a wing, as a fraction of the sphere's radius.
 const BESIDE: f64 = 0.95;
 
 /// Minimum initial distance of webbing from a wing's ends, rad.
 const EDGE_RAD: f64 = 0.05;
 
-/// The segment of the pelvis and the wing of a side, whose webbing passes on to the abdomen.
+/// The pelvis segment and the wing of a side, from which webbing slides to the abdomen.
 pub(super) fn track(
     b: &mut Builder,
     path: &str,
@@ -73,7 +73,7 @@ pub(crate) fn above(body: &Body, pelvis: Segment) -> Option<Segment> {
     ends.find(|segment| body.tree.is_trunk(*segment))
 }
 
-/// Position of webbing that has come off a wing: on the plate of the abdomen, or where its front would be.
+/// Position of webbing that has slid off a wing: on the plate of the abdomen, or where its front would be.
 fn abdomen(body: &Body, above: Segment, y: f64, radius_m: f64) -> Next {
     let plate = body.plates.iter().position(|plate| plate.name == "abdomen");
     let (segment, place, ride) = match plate {
@@ -83,7 +83,7 @@ fn abdomen(body: &Body, above: Segment, y: f64, radius_m: f64) -> Next {
     Next { segment: segment.index(), point_m: Point3::new(place.x, y, place.z), ride }
 }
 
-/// How a wing rides on the deformable flesh in front of the pelvis, if there is any.
+/// Shares of the deflection of flesh in front of the pelvis that a wing follows, if there is any.
 pub(super) fn flesh(body: &Body) -> Shares {
     let own = body
         .plates

@@ -313,7 +313,7 @@ fn a_person_that_cannot_be_made_is_refused_with_the_reason() {
         ("stature = \"1.6 m\"\nmass = \"52 kg\"", "`body` has no key `sex`"),
         ("preset = \"child06\"\nmass = \"25 kg\"", "the preset child06 has one size"),
         ("preset = \"male50-1970\"\nstature = \"1.8 m\"", "the preset male50-1970 has one size"),
-        ("preset = \"male50\"\nstature = \"0.9 m\"", "a grown-up of 1.4 to 2.05 m"),
+        ("preset = \"male50\"\nstature = \"0.9 m\"", "an adult of 1.4 to 2.05 m"),
     ] {
         let problem = complaint(&body_of(&format!("[body]\n{section}")));
         assert!(problem.contains(expected), "{section}: {problem}");

@@ -180,7 +180,7 @@ error: the scenario has no key `title`
 9 | rise = 1
   |        ^
   = in: path.rise
-  = expected: of these keys only peak, delta_v, duration
+  = expected: this shape takes only peak, delta_v, duration
 
 error: a pulse without `peak` or `delta_v`
  --> s.toml:5:1

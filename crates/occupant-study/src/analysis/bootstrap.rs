@@ -4,7 +4,7 @@ use super::Estimate;
 use crate::random::{Purpose, bits};
 use crate::spread::quantile;
 
-/// Resamples of a bootstrap: the ends of a 95 % interval are the 25th and 976th of them.
+/// Number of bootstrap resamples; the ends of a 95 % interval are the 25th and 976th of them.
 pub const RESAMPLES: u64 = 1000;
 
 /// Row numbers of resample `number` of `rows` rows, drawn with replacement. The bias of the remainder is below rows/2⁶⁴.
@@ -14,7 +14,7 @@ pub fn resample(seed: u64, number: u64, rows: usize, into: &mut Vec<usize>) {
     into.extend((0..rows).map(|i| draw(i) as usize));
 }
 
-/// The 95 % intervals of several numbers made of the same rows; `of` makes them of row numbers.
+/// The 95 % bootstrap intervals of several statistics; `of` computes them from row numbers.
 pub fn intervals(seed: u64, rows: usize, count: usize, of: impl Fn(&[usize]) -> Vec<f64>) -> Vec<Estimate> {
     let all: Vec<usize> = (0..rows).collect();
     let values = of(&all);

@@ -13,7 +13,7 @@
 
 use super::{AnalysisError, Estimate, at_rows, bootstrap, complete_rows, mean};
 
-/// Points below which no index is given.
+/// Smallest number of points for an index.
 const LEAST_POINTS: usize = 16;
 
 /// First-order and total indices of all parameters.
@@ -23,9 +23,9 @@ pub struct SobolIndices {
     pub first: Vec<Estimate>,
     /// STᵢ, by parameter.
     pub total: Vec<Estimate>,
-    /// How many points carry STᵢ, by parameter: (Σd²)²/Σd⁴ of the differences d = f_A − f_ABᵢ. All of them where the parameter
-    /// acts everywhere alike, a few where it acts seldom, 0 where no point shows an effect: the intervals of both indices
-    /// know only what these points have met.
+    /// Effective number of points behind STᵢ, by parameter: (Σd²)²/Σd⁴ of the differences d = f_A − f_ABᵢ. Equal to all
+    /// points if the parameter acts equally everywhere, small if it acts rarely, 0 if no point shows an effect. The
+    /// intervals of both indices are only as good as these points.
     pub carrying: Vec<f64>,
     /// Mean of the figure over A and B.
     pub mean: f64,

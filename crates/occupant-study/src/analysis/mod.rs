@@ -38,7 +38,7 @@ impl Estimate {
     }
 }
 
-/// Why an analysis cannot be made.
+/// Reason why an analysis is impossible.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum AnalysisError {
     /// Columns of different length.
@@ -49,7 +49,7 @@ pub enum AnalysisError {
         /// Rows of the first column.
         expected: usize,
     },
-    /// Fewer complete rows than the analysis needs to say anything.
+    /// Too few complete rows for the analysis.
     #[error("{found} complete rows; at least {needed} are needed")]
     TooFew {
         /// Complete rows.
@@ -63,12 +63,12 @@ pub enum AnalysisError {
         /// Index of the parameter; none for the figure.
         parameter: Option<usize>,
     },
-    /// Parameters that depend on one another, so that no part can be given to each.
+    /// Parameters that depend on one another, so that their effects cannot be separated.
     #[error("parameters that depend on one another cannot be separated")]
     Dependent,
 }
 
-/// Rows in which every column has a finite number, at least so many.
+/// Rows in which every column is finite; an error below the least number.
 fn complete_rows<'a>(
     columns: impl Iterator<Item = &'a [f64]> + Clone,
     needed: usize,
@@ -83,7 +83,7 @@ fn complete_rows<'a>(
     if rows.len() >= needed { Ok(rows) } else { Err(AnalysisError::TooFew { found: rows.len(), needed }) }
 }
 
-/// The numbers of a column at some rows.
+/// Values of a column at some rows.
 fn at_rows(column: &[f64], rows: &[usize]) -> Vec<f64> {
     rows.iter().map(|&row| column[row]).collect()
 }

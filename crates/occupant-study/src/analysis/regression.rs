@@ -15,7 +15,7 @@ pub struct RankCorrelation {
     pub rows: usize,
 }
 
-/// A linear model of a figure in the parameters, all divided by their standard deviations.
+/// Linear model of a figure in the parameters, all divided by their standard deviations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regression {
     /// Standardised coefficients, by parameter: standard deviations of the figure for one of the parameter.
@@ -94,7 +94,7 @@ pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<
     })
 }
 
-/// Values less their mean over their standard deviation; none for a constant column.
+/// Values minus their mean, divided by their standard deviation; none for a constant column.
 fn standardised(values: &[f64]) -> Option<Vec<f64>> {
     let (middle, deviation) = (mean(values), deviation(values));
     if deviation.is_nan() || deviation <= 1e-12 * middle.abs() || deviation == 0.0 {
@@ -103,7 +103,8 @@ fn standardised(values: &[f64]) -> Option<Vec<f64>> {
     Some(values.iter().map(|v| (v - middle) / deviation).collect())
 }
 
-/// Coefficients of y on the columns x (with a constant) over some rows; none if the columns depend on one another there.
+/// Least-squares coefficients of y on the columns x and a constant, over some rows; none if the columns are linearly
+/// dependent there.
 fn least_squares(x: &[Vec<f64>], y: &[f64], rows: &[usize]) -> Option<Vec<f64>> {
     let k = x.len();
     let entry = |r: usize, c: usize| if c == k { 1.0 } else { x[c][rows[r]] };

@@ -7,7 +7,7 @@
 
 use super::{AnalysisError, Estimate, bootstrap, deviation};
 
-/// Trajectories below which no effect is given.
+/// Smallest number of trajectories for an effect.
 const LEAST_TRAJECTORIES: usize = 4;
 
 /// The effects of one parameter.
@@ -19,7 +19,7 @@ pub struct Effect {
     pub mean_magnitude: Estimate,
     /// σ.
     pub deviation: f64,
-    /// Effects that count.
+    /// Number of effects used.
     pub effects: usize,
     /// Effects left out because a run has no such figure.
     pub dropped: usize,

@@ -43,7 +43,7 @@ impl Binder<'_> {
         copula
     }
 
-    /// The parameter that one side of a correlation names.
+    /// The parameter named by one side of a correlation.
     pub(super) fn correlated(&mut self, parameters: &[Parameter], n: usize, side: usize) -> Option<usize> {
         let name = &self.text.section.correlations[n].between[side];
         let found = parameters.iter().position(|p| p.name == *name);

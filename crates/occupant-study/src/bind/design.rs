@@ -9,7 +9,7 @@ use crate::sobol::MAX_DIMENSIONS;
 use occupant_scenario::Resolver;
 use placed_text::Problem;
 
-/// More runs than this are a slip of the pen: they take months.
+/// Largest number of runs; more would take months and are taken for a typing error.
 pub const MOST_RUNS: u64 = 10_000_000;
 
 impl Binder<'_> {
@@ -47,7 +47,7 @@ impl Binder<'_> {
         Design::Single
     }
 
-    /// Whether parameters and design fit each other in kind and number.
+    /// Checks that parameters and design match in kind and number.
     pub(super) fn sizes(&mut self, parameters: &[Parameter], design: &Design, ensemble: Option<&Ensemble>) {
         let levels: Vec<Option<u64>> = parameters.iter().map(|p| p.law.levels()).collect();
         if *design == Design::FullFactorial {
@@ -72,7 +72,7 @@ impl Binder<'_> {
         self.power_of_two(design);
     }
 
-    /// Numbers that a design can work with.
+    /// Checks the ranges of a design's numbers.
     fn limits(&mut self, parameters: usize, design: &Design) {
         let most = match design {
             Design::Sobol { .. } => MAX_DIMENSIONS,
@@ -96,7 +96,7 @@ impl Binder<'_> {
         }
     }
 
-    /// Warns of a number of points that Sobol's sequence does not fill.
+    /// Warns of a number of points that is no power of 2.
     fn power_of_two(&mut self, design: &Design) {
         let (Design::Sobol { samples, .. } | Design::Saltelli { samples, .. }) = design else { return };
         if !samples.is_power_of_two() {

@@ -8,7 +8,7 @@ use crate::parameter::{Parameter, Target};
 use crate::section::{ApplyChoice, PerturbationSection};
 use occupant_scenario::Draft;
 
-/// The ensemble of a study, if it has one. Without any tolerance it has the standard ones.
+/// The ensemble of a study, if any. Without tolerances it has the standard ones.
 pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) -> Option<Ensemble> {
     let section = binder.text.section.ensemble.as_ref()?;
     let posture = section.posture.as_ref().map(|most| ensemble::posture(base, most.si()));

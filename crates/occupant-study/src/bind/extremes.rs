@@ -8,10 +8,10 @@ use crate::section::ApplyChoice;
 use occupant_scenario::{Diagnostics, Draft, Place};
 use placed_text::{Problem, Severity};
 
-/// The part of a normal distribution beyond which values out of range are not looked for.
+/// Tail probability of a normal distribution beyond which values are not range-checked.
 const RARE: f64 = 1e-6;
 
-/// Checks every parameter, and that nothing is both given by hand and varied.
+/// Checks the extreme values of every parameter, and that no value is both overridden and varied.
 pub(super) fn check(binder: &mut Binder, base: &Draft, parameters: &[Parameter], overrides: &[String]) {
     let written = binder.text.section.parameters.len();
     for (i, parameter) in parameters.iter().enumerate() {
@@ -43,7 +43,7 @@ fn tell(binder: &mut Binder, at: &str, parameter: &Parameter, wrong: Diagnostics
     });
 }
 
-/// The values between which all others lie, or all values of a list.
+/// The least and largest values of a law, or all values of a list.
 fn extremes(law: &Law) -> Vec<Value> {
     match law {
         Law::List(values) => values.clone(),
@@ -52,7 +52,7 @@ fn extremes(law: &Law) -> Vec<Value> {
     }
 }
 
-/// The problems of the base scenario with these values in it.
+/// Problems of the base scenario with these values.
 fn put_in(base: &Draft, list: &[Assignment]) -> Result<(), Diagnostics> {
     let mut draft = base.clone();
     put(list, &mut draft)?;
@@ -60,7 +60,7 @@ fn put_in(base: &Draft, list: &[Assignment]) -> Result<(), Diagnostics> {
     if wrong.has_errors() { Err(wrong) } else { Ok(()) }
 }
 
-/// Tells of an override that this parameter would undo.
+/// Reports an override that this parameter would undo.
 fn by_hand(binder: &mut Binder, base: &Draft, parameter: &Parameter, overrides: &[String], at: &str) {
     if parameter.apply != ApplyChoice::Value {
         return;

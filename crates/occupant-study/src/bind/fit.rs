@@ -11,7 +11,7 @@ use occupant_scenario::{Diagnostics, Draft, Resolver};
 use occupant_units::trig::ln;
 use placed_text::{Problem, Value};
 
-/// Evaluations for each parameter.
+/// Default number of evaluations per parameter.
 const BUDGET: u64 = 400;
 const POPULATION: usize = 16;
 const TOLERANCE: f64 = 1e-4;
@@ -19,7 +19,7 @@ const MOST_EVALUATIONS: u64 = 10_000_000;
 const MOST_CANDIDATES: u64 = 10_000;
 
 impl StudyText {
-    /// What the study says of a fit; what stands there for none is the same as an empty `[fit]`.
+    /// The fit section of the study; without one, that of an empty `[fit]`.
     ///
     /// # Errors
     /// All problems of it, as far as that can be seen without tests and scenarios.
@@ -76,7 +76,7 @@ impl StudyText {
         self.bind_for(Some(test), base, overrides, resolver)
     }
 
-    /// A problem at a place of the study, such as `fit.channels[2].channel`.
+    /// A problem at a path of the study, such as `fit.channels[2].channel`.
     pub fn complaint(
         &self,
         path: &str,
@@ -91,7 +91,7 @@ impl StudyText {
 }
 
 impl Binder<'_> {
-    /// Numbers that a search can work with.
+    /// Checks the ranges of the search's numbers.
     fn limits_of(&mut self, section: &FitSection) {
         let counts =
             [("budget", section.budget, MOST_EVALUATIONS), ("population", section.population, MOST_CANDIDATES)];
@@ -109,7 +109,7 @@ impl Binder<'_> {
         }
     }
 
-    /// Tells of parameters that have no ends between which to look.
+    /// Reports parameters without bounds to search between.
     pub(super) fn have_ends(&mut self, parameters: &[Parameter]) {
         // a broken parameter shifts the others, and so does one that stands for several
         let written = self.text.section.parameters.len();

@@ -7,7 +7,7 @@ use occupant_scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
 use occupant_scenario::{Usual, Wanted};
 use placed_text::{Value as Written, did_you_mean, one_of};
 
-/// The usual spread of what stands at a parameter's only path.
+/// The built-in distribution for a parameter's only path.
 fn usual(binder: &mut Binder, section: &ParameterSection, at: &str) -> Option<Distribution<f64>> {
     let found = section.path.as_deref().and_then(|path| binder.base?.usual(path));
     if found.is_none() || section.apply.unwrap_or_default() != ApplyChoice::Value {
@@ -22,11 +22,11 @@ fn usual(binder: &mut Binder, section: &ParameterSection, at: &str) -> Option<Di
     })
 }
 
-/// How the values of one parameter are to be read.
+/// How the values of a parameter are read.
 pub(super) struct Quantities<'w> {
     /// The kind of its numbers; none for names.
     pub(super) kind: Option<&'static Kind>,
-    /// What may stand at its places.
+    /// What its paths accept.
     pub(super) wanted: &'w Wanted,
     /// Units of bare numbers.
     pub(super) units: UnitSystem,
@@ -65,7 +65,7 @@ impl Quantities<'_> {
         value.map_err(|error| binder.error(at, error.found, error.expected, error.hint)).ok()
     }
 
-    /// Two ends, the first below the second, both positive on a logarithmic scale.
+    /// Two bounds in increasing order, both positive on a logarithmic scale.
     fn ends(&self, binder: &mut Binder, at: &str, [from, to]: [&Written; 2], log: bool) -> Option<[f64; 2]> {
         let from = self.number(binder, from, &format!("{at}.from"));
         let to = self.number(binder, to, &format!("{at}.to"));

@@ -74,13 +74,13 @@ impl StudyText {
     }
 }
 
-/// Entries that a list of a study may have.
+/// Largest number of entries in a list of a study.
 const MOST_ENTRIES: usize = 1000;
 
 /// Work on a study text, with the problems found so far.
 pub(super) struct Binder<'a> {
     pub(super) text: &'a StudyText,
-    /// Of a fit: what the scenario of the test has besides, and where that stands in the study.
+    /// For a fit: the test's own scenario values, and their path in the study.
     pub(super) test: Option<(&'a IndexMap<String, Value>, &'a str)>,
     pub(super) base: Option<&'a Draft>,
     pub(super) changes: Vec<(String, String)>,
@@ -107,12 +107,12 @@ impl<'a> Binder<'a> {
         self.report(Problem::error(path, found, expected).with_hint(hint));
     }
 
-    /// Adds a problem at the words of the study that its path points at.
+    /// Adds a problem at the place of the study that its path points to.
     pub(super) fn report(&mut self, problem: Problem) {
         self.text.report(&mut self.problems, problem);
     }
 
-    /// Which samples there are, and what changes besides; nothing of that counts for a fit.
+    /// The samples and the ensemble; a fit has neither.
     fn varied(
         &mut self,
         base: &Draft,
@@ -129,7 +129,7 @@ impl<'a> Binder<'a> {
         (design, copula, ensemble)
     }
 
-    /// Puts what is the same in all runs into the base.
+    /// Sets the values common to all runs in the base scenario.
     fn prepare(&mut self, base: &mut Draft, overrides: &[String]) -> Result<(), Diagnostics> {
         let text = self.text;
         self.refuse_many();
@@ -151,7 +151,7 @@ impl<'a> Binder<'a> {
         if wrong.has_errors() { Err(wrong) } else { Ok(()) }
     }
 
-    /// Refuses lists that nobody has written by hand: each entry is compared with the others and with the base.
+    /// Refuses lists too long to be hand-written: each entry is compared with all others and with the base.
     fn refuse_many(&mut self) {
         let section = &self.text.section;
         let fit = section.fit.as_ref();
@@ -171,7 +171,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Puts the values of a `set` at `at` into the base.
+    /// Sets the values of the `set` at `at` in the base scenario.
     fn set(&mut self, base: &mut Draft, set: &IndexMap<String, Value>, at: &str) {
         for (path, value) in set {
             let value = self.written(base, path, value);
@@ -185,7 +185,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A value of `set` as the base reads it; a bare number is in the study's units.
+    /// A value of `set` in the form that the base reads; a bare number is in the study's units.
     fn written(&self, base: &Draft, path: &str, value: &Value) -> String {
         let wanted = base.places(path).ok().and_then(|p| p.into_iter().next());
         let unit = match wanted.map(|p| p.wanted) {

@@ -10,7 +10,7 @@ use crate::segments::{segments, size};
 use occupant_scenario::{Place, Wanted};
 
 impl Binder<'_> {
-    /// The parameters that have found their places; a broken one is reported and left out.
+    /// The parameters whose paths exist; a wrong one is reported and left out.
     pub(super) fn parameters(&mut self) -> Vec<Parameter> {
         let sections = &self.text.section.parameters;
         let mut found: Vec<Parameter> = Vec::new();
@@ -32,7 +32,7 @@ impl Binder<'_> {
         found
     }
 
-    /// A factor for each segment of the body, between 1 minus and 1 plus `most`.
+    /// A factor per segment of the body, between 1 − `most` and 1 + `most`.
     fn segments(&mut self, most: f64, at: &str) -> Vec<Parameter> {
         let found = self.base.map(segments).unwrap_or_default();
         if found.is_empty() {
@@ -53,7 +53,7 @@ impl Binder<'_> {
         found.into_iter().map(of).collect()
     }
 
-    /// Tells of parameters that make another body, beside `segments` at a place of the study, which are those of the base.
+    /// Reports parameters that change the body while `segments` refers to the body of the base.
     pub(super) fn refuse_size(&mut self, parameters: &[Parameter], at: &str) {
         if let Some(path) = size(parameters.iter().flat_map(|parameter| &parameter.targets)) {
             let found = format!("`{path}` is varied, and with it all segments of the base scenario's body");
@@ -84,7 +84,7 @@ impl Binder<'_> {
         })
     }
 
-    /// Whether a parameter is crossed with the samples of the others, as its section asks.
+    /// Whether a parameter is crossed with the samples of the others.
     fn is_crossed(&mut self, section: &ParameterSection, at: &str) -> bool {
         if section.crossed != Some(true) {
             return false;
@@ -101,7 +101,7 @@ impl Binder<'_> {
         true
     }
 
-    /// The places of several paths, each once; none if any path leads nowhere.
+    /// The targets of several paths, each once; none if a path does not exist.
     pub(super) fn places(&mut self, paths: &[(String, &str)]) -> Option<Vec<Place>> {
         let base = self.base?;
         let mut places: Vec<Place> = Vec::new();
@@ -124,7 +124,7 @@ impl Binder<'_> {
         (whole && !places.is_empty()).then_some(places)
     }
 
-    /// What may stand at all of the places.
+    /// What all targets accept.
     pub(super) fn common(&mut self, places: &[Place], at: &str) -> Option<Wanted> {
         let first = places.first()?;
         let other = places.iter().find(|p| p.wanted != first.wanted);
@@ -139,7 +139,7 @@ impl Binder<'_> {
         }
     }
 
-    /// Whether there are numbers to multiply or to add to.
+    /// Whether all targets are numbers, which can be multiplied or added to.
     pub(super) fn all_numbers(&mut self, places: &[Place], at: &str, apply: ApplyChoice) -> bool {
         let Some(other) = places.iter().find(|p| p.si.is_none()) else { return true };
         let word = match apply {
@@ -155,7 +155,7 @@ impl Binder<'_> {
         false
     }
 
-    /// Whether a table says the values of all parameters.
+    /// Whether a table gives the values of all parameters.
     fn has_table(&self) -> bool {
         self.test.is_none() && matches!(self.text.section.design, Some(Design::Table { .. }))
     }
@@ -191,7 +191,7 @@ impl Binder<'_> {
         quantities.law(self, section, at)
     }
 
-    /// Tells of two parameters of one name, and of a value that an earlier parameter has already put there.
+    /// Reports two parameters of one name, and a target used by an earlier parameter.
     pub(super) fn clash(&mut self, parameter: &Parameter, earlier: &[Parameter], at: &str) {
         if earlier.iter().any(|p| p.name == parameter.name) {
             let found = format!("two parameters named `{}`", parameter.name);

@@ -17,7 +17,7 @@ struct Column {
     factor: f64,
 }
 
-/// The samples of a file; columns that name no parameter name a path, which becomes one.
+/// The samples of a file. A heading that names no parameter is a path, which becomes a parameter.
 pub(super) fn rows(
     binder: &mut Binder,
     file: &str,
@@ -113,14 +113,14 @@ impl Reader<'_, '_, '_> {
         Some(Column { parameter, wanted, kind, factor })
     }
 
-    /// What may stand at the places of a parameter.
+    /// What the targets of a parameter accept.
     fn wanted(&self, parameter: &Parameter) -> Option<Wanted> {
         let path = &parameter.targets.first()?.path;
         let places = self.binder.base?.places(path).ok()?;
         places.first().map(|p| p.wanted.clone())
     }
 
-    /// A parameter for a column that is named after a path.
+    /// A parameter for a column headed by a path.
     fn of_path(&mut self, path: &str, span: Span) -> Option<Parameter> {
         let places = match self.binder.base?.places(path) {
             Ok(places) => places,
@@ -146,7 +146,7 @@ impl Reader<'_, '_, '_> {
         })
     }
 
-    /// SI units in one of the column's own.
+    /// Factor from the column's unit to SI.
     fn factor(&mut self, cell: &Cell, name: &str, unit: Option<&str>, kind: Option<&Kind>) -> Option<f64> {
         let factor = match (unit.filter(|u| !u.is_empty()), kind) {
             (None, None) => Ok(1.0),

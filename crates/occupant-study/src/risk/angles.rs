@@ -14,17 +14,17 @@ use occupant_core::vehicle::{
 /// Largest roll, pitch and yaw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Angles {
-    /// Roll, pitch, yaw of largest magnitude, rad. Yaw counts from the heading at the start.
+    /// Roll, pitch, yaw of largest magnitude, rad. Yaw is measured from the initial heading.
     pub largest: [Measured<Peak>; 3],
     /// Roll, pitch, yaw over time, rad.
     pub histories: [Measured<Vec<f64>>; 3],
-    /// True if all three rates were there, so that the angles are roll, pitch and yaw of the attitude; otherwise each is
+    /// True if all three rates are there, so that the angles are roll, pitch and yaw of the attitude; otherwise each is
     /// the integral of its own rate.
     pub of_attitude: bool,
 }
 
 impl Angles {
-    /// The angles that the rates allow.
+    /// The angles that can be computed from the rates.
     pub(super) fn of(signals: &VehicleSignals) -> Self {
         let of_attitude = signals.channels[3..].iter().all(Option::is_some);
         let histories = if of_attitude {
@@ -43,7 +43,7 @@ impl Angles {
     }
 }
 
-/// Roll, pitch and yaw of the attitude that the three rates lead to.
+/// Roll, pitch and yaw of the attitude, integrated from the three rates.
 fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
     let time_s: Vec<f64> = (0..signals.samples()).map(|i| i as f64 * signals.dt_s).collect();
     let sensors = SensorPath::new(SensorDefinition {
@@ -79,7 +79,7 @@ fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
     ])
 }
 
-/// The integral of one rate, from the angle at the start.
+/// Integral of one rate, from the initial angle.
 fn alone(signals: &VehicleSignals, axis: usize) -> Measured<Vec<f64>> {
     let start = [signals.initial.roll_rad, signals.initial.pitch_rad, 0.0];
     Ok(integrate(signals.channel(3 + axis)?, signals.dt_s, start[axis])?)

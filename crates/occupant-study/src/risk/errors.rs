@@ -9,28 +9,28 @@ use nalgebra::{Rotation3, Vector3};
 use super::VehicleSignals;
 use crate::random::{Purpose, unit};
 
-/// Bounds of the errors of sensors, to both sides.
+/// Bounds of sensor errors, to both sides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SensorErrors {
-    /// Of the gain of each channel, as a part of it.
+    /// Of the gain of each channel, relative.
     pub gain: f64,
-    /// Of the zero of each acceleration, m/s².
+    /// Zero offset of each acceleration, m/s².
     pub offset_m_s2: f64,
-    /// Of the zero of each rate, rad/s.
+    /// Zero offset of each rate, rad/s.
     pub rate_rad_s: f64,
-    /// Of the mounting of the sensors about each axis, rad.
+    /// Mounting angle of the sensors about each axis, rad.
     pub angle_rad: f64,
-    /// Of the place of the sensors along each axis, m. It needs all three rates.
+    /// Position of the sensors along each axis, m. It needs all three rates.
     pub place_m: f64,
 }
 
 impl SensorErrors {
-    /// Whether there is none.
+    /// Whether all bounds are 0.
     pub fn is_none(&self) -> bool {
         *self == SensorErrors::default()
     }
 
-    /// The signals as sensors with the errors of this member would have given them.
+    /// The signals with the sensor errors of this member.
     pub fn member(&self, signals: &VehicleSignals, member: u64) -> VehicleSignals {
         let mut changed = signals.clone();
         if member == 0 {
@@ -59,7 +59,7 @@ impl SensorErrors {
     }
 }
 
-/// Turns three channels; one that is not there is zero.
+/// Rotates a vector of three channels; a missing one is zero.
 fn rotate(mut channels: [Option<&mut Vec<f64>>; 3], turn: &Rotation3<f64>) {
     let count = channels.iter().flatten().map(|samples| samples.len()).max().unwrap_or(0);
     for i in 0..count {
@@ -73,7 +73,7 @@ fn rotate(mut channels: [Option<&mut Vec<f64>>; 3], turn: &Rotation3<f64>) {
     }
 }
 
-/// What sensors at another place feel: a + ω̇ × r + ω × (ω × r).
+/// Acceleration at a displaced sensor: a + ω̇ × r + ω × (ω × r).
 fn displace(signals: &mut VehicleSignals, arm_m: Vector3<f64>) {
     let dt_s = signals.dt_s;
     let [ax, ay, az, Some(wx), Some(wy), Some(wz)] = &mut signals.channels else { return };

@@ -3,7 +3,7 @@
 use super::VehicleRisk;
 use crash_measures::measure::limits::{Grade, LIMITS, Limit, Quantity, Rule, Verdict};
 
-/// The rules that judge a vehicle's motion.
+/// Rules for the motion of a vehicle.
 pub const ROADSIDE_RULES: [Rule; 10] = [
     Rule::Mash2016,
     Rule::Mash2016Supports,
@@ -17,7 +17,7 @@ pub const ROADSIDE_RULES: [Rule; 10] = [
     Rule::En12767Slow,
 ];
 
-/// A measure against a limit.
+/// A measure compared with a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
     /// The limit.
@@ -37,18 +37,18 @@ impl Judgement {
     }
 }
 
-/// What a rule with classes or levels says of a motion.
+/// Grade of a motion under a rule with classes or levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Attained {
-    /// The best class or level whose every bound is kept.
+    /// The best class or level whose bounds are all met.
     Grade(Grade),
-    /// None: this bound is exceeded.
+    /// None, because this bound is exceeded.
     Beyond(&'static Limit),
-    /// Not known: this measure was left out.
+    /// Unknown, because this measure is missing.
     NotMeasured(&'static str),
 }
 
-/// The class or level that a rule gives; none for a rule without any. A maximum beside the classes holds for each.
+/// The class or level attained under a rule; none for a rule without any. A maximum beside the classes applies to each.
 pub fn attained(rule: Rule, judgements: &[Judgement]) -> Option<Attained> {
     let own = || judgements.iter().filter(move |judgement| judgement.limit.rule == rule);
     let has_classes = own().any(|judgement| !matches!(judgement.limit.grade, Grade::Maximum | Grade::Preferred));
@@ -69,7 +69,7 @@ pub fn attained(rule: Rule, judgements: &[Judgement]) -> Option<Attained> {
     best.or_else(|| Some(Attained::Beyond(exceeded(grades().next_back()?)?.limit)))
 }
 
-/// Every limit of `rules`, in the order of the rules, with what it says of `risk`.
+/// All limits of `rules` in order, compared with `risk`.
 pub fn judge(risk: &VehicleRisk, rules: &[Rule]) -> Vec<Judgement> {
     let mut judgements = Vec::new();
     for rule in rules {
@@ -83,7 +83,7 @@ pub fn judge(risk: &VehicleRisk, rules: &[Rule]) -> Vec<Judgement> {
     judgements
 }
 
-/// The measures that a limit speaks of.
+/// The measures that a limit applies to.
 fn values(risk: &VehicleRisk, limit: &Limit) -> Vec<(&'static str, Option<f64>)> {
     let flail = risk.flail.as_ref().ok();
     let thiv = risk.thiv.as_ref().ok();

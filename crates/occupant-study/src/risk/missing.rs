@@ -14,12 +14,12 @@ pub enum Missing {
     /// The signals do not allow it.
     #[error("{0}")]
     Signal(#[from] SignalError),
-    /// The rates do not lead to an attitude: why not.
+    /// The rates do not give an attitude, with the reason.
     #[error("{0}")]
     Turning(String),
 }
 
-/// Two things that are both needed; the channels that both lack are named together.
+/// Two values that are both needed; missing channels of both are named together.
 pub(super) fn both<A, B>(a: Measured<A>, b: Measured<B>) -> Measured<(A, B)> {
     match (a, b) {
         (Ok(a), Ok(b)) => Ok((a, b)),

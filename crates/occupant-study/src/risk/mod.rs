@@ -34,16 +34,16 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// Names of the channels.
 const CHANNELS: [&str; 6] = ["ax", "ay", "az", "wx", "wy", "wz"];
 
-/// Accelerations of the c.g. and turning rates along the vehicle's axes, evenly sampled, filtered, from first contact on.
+/// Accelerations of the c.g. and angular rates along the vehicle's axes, evenly sampled, filtered, from first contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VehicleSignals {
-    /// Time of the first sample, s; times of measures count from it.
+    /// Time of the first sample, s; times of measures are relative to it.
     pub start_s: f64,
     /// Sample interval, s.
     pub dt_s: f64,
-    /// Accelerations along x, y, z, m/s², gravity not in them; rates about x, y, z, rad/s.
+    /// Accelerations along x, y, z without gravity, m/s²; rates about x, y, z, rad/s.
     pub channels: [Option<Vec<f64>>; 6],
-    /// Accelerations before the first sample, as far as the record has them: filters of measures run through them. Of no rates.
+    /// Accelerations before the first sample, as far as recorded, for the run-in of filters. Without rates.
     pub lead: [Vec<f64>; 3],
     /// Attitude at the first sample.
     pub initial: Attitude,
@@ -60,13 +60,13 @@ impl VehicleSignals {
         self.start_s + self.samples().saturating_sub(1) as f64 * self.dt_s
     }
 
-    /// A channel by its place.
+    /// A channel by its index.
     fn channel(&self, place: usize) -> Measured<&[f64]> {
         self.channels[place].as_deref().ok_or_else(|| Missing::Channels(vec![CHANNELS[place]]))
     }
 }
 
-/// Where the occupant starts and how far it may fly.
+/// Geometry of the flail space.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Flight {
     /// Distances of the flail-space model.
@@ -75,7 +75,7 @@ pub struct Flight {
     pub head: HeadFlight,
 }
 
-/// Change of velocity along an axis of the vehicle, which turns with it: ∫a dt.
+/// Velocity change along a vehicle-fixed axis: ∫a dt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityChange {
     /// At the end of the record, m/s.
@@ -84,7 +84,7 @@ pub struct VelocityChange {
     pub largest: Peak,
 }
 
-/// Everything that is computed.
+/// All risk measures of a vehicle's motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VehicleRisk {
     /// Occupant impact velocity and ridedown acceleration.
@@ -95,7 +95,8 @@ pub struct VehicleRisk {
     pub asi_1998: Measured<Peak>,
     /// ASI of EN 1317-1:2010.
     pub asi_2010: Measured<Peak>,
-    /// How much of its maximum that index still has where the record ends: what comes after is not known.
+    /// The index at the end of the record, as a fraction of its maximum: if large, it may rise further after the
+    /// record's end.
     pub asi_left_at_end: Option<f64>,
     /// Largest 50 ms averages along x, y, z, m/s².
     pub max_50ms: [Measured<WindowExtreme>; 3],
@@ -108,7 +109,7 @@ pub struct VehicleRisk {
 }
 
 impl VehicleRisk {
-    /// Computes what the channels allow.
+    /// Computes the measures that the channels allow.
     pub fn of(signals: &VehicleSignals, flight: &Flight) -> Self {
         let asi_2010 = severity(signals, AsiEdition::Edition2010);
         VehicleRisk {
@@ -139,8 +140,8 @@ fn head_impact(signals: &VehicleSignals, flight: &Flight) -> Measured<Thiv> {
     Ok(thiv(ax, ay, yaw_rate, signals.dt_s, flight.head)?)
 }
 
-/// The index, and how much of it is left at the end of the record. It is that from first contact on; the filter of the 2010 edition knows what
-/// was before.
+/// The index from first contact, and its fraction left at the end of the record. The filter of the 2010 edition also
+/// uses samples before contact.
 fn severity(signals: &VehicleSignals, edition: AsiEdition) -> Measured<(Peak, f64)> {
     let planar = missing::both(signals.channel(0), signals.channel(1));
     let ((ax, ay), az) = missing::both(planar, signals.channel(2))?;

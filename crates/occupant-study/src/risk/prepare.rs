@@ -13,34 +13,35 @@ use placed_text::number;
 /// Gravity in the vertical channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum VerticalGravity {
-    /// The sensors were zeroed at rest, or gravity was taken out: a level vehicle at rest reads 0.
+    /// Zeroed at rest, or gravity was removed: a level vehicle at rest reads 0.
     #[default]
     Removed,
-    /// A level vehicle at rest reads −1 g on z (down): 1 g is added to the channel. It does not turn with the vehicle.
+    /// A level vehicle at rest reads −1 g on z (down): 1 g is added to the channel. The correction does not rotate with
+    /// the vehicle.
     Included,
 }
 
-/// What is done with a record before anything is measured.
+/// Preparation of a record before measures are computed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Preparation {
-    /// Low-pass for all channels; none leaves them as they are.
+    /// Low-pass filter of all channels; none leaves them unfiltered.
     pub filter: Option<(ChannelClass, CfcFamily)>,
-    /// New sample interval, s, by straight lines; the record's own if none.
+    /// New sample interval, s, by linear interpolation; the record's own if none.
     pub interval_s: Option<f64>,
-    /// Where the sensors stand, from the c.g., x forward, y right, z down, m.
+    /// Position of the sensors relative to the c.g., x forward, y right, z down, m.
     pub offset_m: [f64; 3],
     /// Gravity in az.
     pub gravity: VerticalGravity,
-    /// Lengths of the rests at the beginning of the record and at its end, s: what a channel reads there beyond what it should is taken away, with
-    /// both along a straight line. A rest at the end needs one at the beginning.
+    /// Durations of the rest at the beginning of the record and at its end, s, whose mean readings are removed as zero
+    /// offsets; with both, along a straight line. A rest at the end needs one at the beginning.
     pub baseline_s: [Option<f64>; 2],
     /// Time of first contact, s; the first sample if none.
     pub start_s: Option<f64>,
-    /// Time up to which the record is looked at, s; its last sample if none.
+    /// Last time used, s; the last sample if none.
     pub end_s: Option<f64>,
 }
 
-/// Why a record cannot be used.
+/// Reason why a record cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unprepared {
     /// It has no channel.
@@ -49,24 +50,24 @@ pub enum Unprepared {
     /// A channel, or the times ("t"), are wrong.
     #[error("{name}: {error}")]
     Channel {
-        /// Which.
+        /// The channel.
         name: &'static str,
-        /// In what way.
+        /// The error.
         error: SignalError,
     },
-    /// Sensors away from the c.g. need rates that are not there.
+    /// Sensors away from the c.g. need rates that are missing.
     #[error(
         "sensors away from the centre of gravity need all three rates; {} {} missing",
         missing.join(", "), if missing.len() == 1 { "is" } else { "are" }
     )]
     OffsetNeedsRates {
-        /// Which.
+        /// The missing rates.
         missing: Vec<&'static str>,
     },
-    /// The rest whose readings are the sensors' zero errors cannot be used.
+    /// The rest used for zero offsets is invalid.
     #[error("{0}")]
     Baseline(PathProblem),
-    /// First contact and end do not lie in the record, in this order.
+    /// First contact and end are not in the record, in this order.
     #[error(
         "the window from {} s to {} s is outside the record, which covers {} s to {} s",
         number(*start_s), number(*end_s), number(*first_s), number(*last_s)
@@ -108,7 +109,7 @@ pub fn prepare(record: &AccelerationRecord, preparation: &Preparation) -> Result
     window(signals, preparation)
 }
 
-/// Takes the zero errors of the sensors away.
+/// Removes zero offsets.
 fn take_baseline(signals: &mut VehicleSignals, preparation: &Preparation) -> Result<(), Unprepared> {
     let [Some(start_s), end_s] = preparation.baseline_s else { return Ok(()) };
     let time_s: Vec<f64> = (0..signals.samples()).map(|i| i as f64 * signals.dt_s).collect();
@@ -121,7 +122,7 @@ fn take_baseline(signals: &mut VehicleSignals, preparation: &Preparation) -> Res
     Ok(())
 }
 
-/// The whole record, evenly sampled.
+/// The whole record, resampled at even intervals.
 fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<VehicleSignals, Unprepared> {
     let of_time = |error| Unprepared::Channel { name: "t", error };
     let mut all = record.acceleration_m_s2.iter().chain(&record.rate_rad_s);
@@ -171,7 +172,7 @@ fn move_to_centre(signals: &mut VehicleSignals, arm_m: Vector3<f64>) -> Result<(
     Ok(())
 }
 
-/// The part from first contact to the end; it starts at the first sample that is not before first contact.
+/// The part from first contact to the end, from the first sample not before first contact.
 fn window(mut signals: VehicleSignals, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
     let (first_s, last_s, dt_s) = (signals.start_s, signals.end_s(), signals.dt_s);
     let start_s = preparation.start_s.unwrap_or(first_s);

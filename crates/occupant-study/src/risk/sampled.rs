@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use occupant_core::vehicle::{AccelerationRecord, Interpolation, PathCursor, VehiclePath};
 
-/// Most samples of a path: what is made of one takes half a kilobyte.
+/// Largest number of samples of a path: each takes half a kilobyte of results.
 const MOST_SAMPLES: f64 = 1.5e6;
 
 /// Accelerations and rates of the c.g. along the vehicle's axes from `start_s` to `end_s`, `dt_s` apart; none for a span or an
@@ -43,7 +43,7 @@ pub fn sampled(path: &VehiclePath, start_s: f64, end_s: f64, dt_s: f64) -> Optio
     Some(record)
 }
 
-/// Velocity change about `t_s` over the interval, m/s²; at the ends of the table half of it lies inside.
+/// Jump of the velocity at `t_s`, spread over the interval, m/s²; at the ends of the table half of it is inside.
 fn jump(
     path: &VehiclePath,
     (first_s, last_s): (f64, f64),

@@ -1,16 +1,16 @@
 //! The walls of the unit cube.
 
-/// The signs of the two directions of a coordinate: towards 0, towards 1.
+/// Signs of the two directions of a coordinate: towards 0, towards 1.
 pub(super) const SIDES: [f64; 2] = [-1.0, 1.0];
 
-/// How much room a coordinate has on a side.
+/// Distance of a coordinate to the bound on a side.
 pub(super) fn room(side: f64, u: f64) -> f64 {
     let room = if side < 0.0 { u } else { 1.0 - u };
     room.max(0.0)
 }
 
-/// The point of [0, 1] that a coordinate stands for whose line is folded at 0, 1, 2, …: continuous, so that a search without
-/// bounds may walk on beyond a wall.
+/// The point of [0, 1] onto which an unbounded coordinate is folded at 0, 1, 2, …: continuous, so that an unconstrained
+/// search may pass a bound.
 pub fn fold(x: f64) -> f64 {
     let t = x.rem_euclid(2.0);
     if t > 1.0 { 2.0 - t } else { t }

@@ -14,7 +14,7 @@ use crate::normal::quantile;
 use crate::random::{Purpose, unit};
 use occupant_units::trig::{exp, ln};
 
-/// The state of one descent.
+/// State of a descent of CMA-ES.
 #[derive(Clone, Debug)]
 pub struct Cma {
     constants: Constants,
@@ -24,13 +24,13 @@ pub struct Cma {
     mean: Vec<f64>,
     step: f64,
     covariance: DMatrix<f64>,
-    /// Eigenvectors in columns, and the roots of the eigenvalues.
+    /// Eigenvectors in columns, and the square roots of the eigenvalues.
     axes: DMatrix<f64>,
     lengths: Vec<f64>,
     /// Evolution paths p_σ and p_c.
     step_path: Vec<f64>,
     path: Vec<f64>,
-    /// Least value of each generation, latest last.
+    /// Least value of each generation, in order.
     least: Vec<f64>,
     last: Vec<f64>,
 }
@@ -50,46 +50,46 @@ struct Constants {
     chi: f64,
 }
 
-/// What no descent can begin from or learn from.
+/// Invalid input of a descent.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BadDescent {
-    /// A mean of so many coordinates.
+    /// An initial mean with this many coordinates.
     #[error("a mean of {0} coordinates, of which not all are finite; expected at least one, all finite")]
     Mean(usize),
-    /// A first step.
+    /// An invalid initial step.
     #[error("a step of {0}; expected a positive one")]
     Step(f64),
-    /// A generation of another size.
+    /// A generation of the wrong size.
     #[error("{points} points and {values} values; expected {expected} of both")]
     Generation {
-        /// Points that were told.
+        /// Number of points given.
         points: usize,
-        /// Values that were told.
+        /// Number of values given.
         values: usize,
-        /// Points of a generation.
+        /// Number of points of a generation.
         expected: usize,
     },
 }
 
-/// More points than this in a generation are a slip.
+/// Largest size of a generation; more is taken for a mistake.
 const MOST_POINTS: usize = 1_000_000;
 
-/// Why a descent has ended.
+/// Reason why a descent ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// The values no longer differ by more than the tolerance.
+    /// The values differ by no more than the tolerance.
     Values,
-    /// The steps have become too short to matter.
+    /// The steps are negligibly short.
     Steps,
-    /// The covariance has become too narrow in one direction to be drawn from.
+    /// The covariance is too ill-conditioned.
     Condition,
-    /// There was no evaluation left.
+    /// The evaluations are used up.
     Budget,
 }
 
 impl Ending {
-    /// In words.
+    /// Description in words.
     pub fn words(self) -> &'static str {
         match self {
             Ending::Values => "the values no longer differ",
@@ -100,7 +100,7 @@ impl Ending {
     }
 }
 
-/// Steps below this part of the unit cube change nothing.
+/// Step length below which nothing changes, as a fraction of the unit cube.
 const SHORTEST_STEP: f64 = 1e-9;
 const WORST_CONDITION: f64 = 1e14;
 
@@ -178,7 +178,7 @@ impl Cma {
         })
     }
 
-    /// How many points a generation has.
+    /// Number of points of a generation.
     pub fn population(&self) -> usize {
         self.constants.weights.len()
     }
@@ -199,7 +199,7 @@ impl Cma {
     /// Learns from the values of the points that [`Cma::ask`] gave; one that is not a number is the worst.
     ///
     /// # Errors
-    /// Other than a generation of points, or a value for each: nothing is learnt then.
+    /// The number of points or values is not the population size; nothing is learnt.
     pub fn tell(&mut self, points: &[Vec<f64>], values: &[f64]) -> Result<(), BadDescent> {
         let (expected, n) = (self.population(), self.mean.len());
         if points.len() != expected || values.len() != expected || points.iter().any(|point| point.len() != n) {
@@ -223,7 +223,7 @@ impl Cma {
         Ok(())
     }
 
-    /// Mean, paths and step (41 to 45).
+    /// Updates mean, paths and step (41 to 45).
     fn move_mean(&mut self, steps: &[Vec<f64>]) {
         let n = self.mean.len();
         let c = &self.constants;
@@ -251,7 +251,7 @@ impl Cma {
         self.step *= exp((c.c_step / c.d_step * (length / c.chi - 1.0)).min(1.0));
     }
 
-    /// Rank-one and rank-μ update (46 and 47); what was forgotten is scaled in `move_mean`.
+    /// Rank-one and rank-μ update (46 and 47); the decay of the old matrix is applied in `move_mean`.
     fn adapt_covariance(&mut self, steps: &[Vec<f64>]) {
         let n = self.mean.len();
         let c = &self.constants;
@@ -294,8 +294,8 @@ impl Cma {
         (0..n).map(|i| dot((0..n).map(|j| (self.axes[(i, j)], along[j])))).collect()
     }
 
-    /// Whether the descent is at its end: all values of the last generation, and the least ones of the last 10 + 30n/λ
-    /// generations, differ by less than `tolerance`; or its steps are too short or too narrow.
+    /// Whether the descent has ended: all values of the last generation, and the least ones of the last 10 + 30n/λ
+    /// generations, differ by less than `tolerance`; or its steps are too short or its covariance too narrow.
     pub fn ending(&self, tolerance: f64) -> Option<Ending> {
         let n = self.mean.len();
         let window = 10 + (30 * n).div_ceil(self.population());
@@ -317,7 +317,7 @@ impl Cma {
     }
 }
 
-/// Largest less least.
+/// Largest minus least value.
 fn spread<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
     high - low

@@ -8,44 +8,44 @@ use super::cma::{Cma, Ending};
 use super::{Evaluate, Point, Stage, evaluated};
 use crate::random::{Purpose, unit};
 
-/// How to search.
+/// Settings of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descents {
-    /// Where the first descent begins; one coordinate each from 0 to 1. The others begin anywhere.
+    /// Start of the first descent, coordinates from 0 to 1. The others start at random points.
     pub start: Vec<f64>,
-    /// Names the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// At most so many evaluations.
+    /// Largest number of evaluations.
     pub evaluations: u64,
-    /// Points of a generation of the first descent, at least 4.
+    /// Population of the first descent, at least 4.
     pub population: usize,
-    /// A descent has arrived when its values differ by less.
+    /// Converged when values differ by less than this.
     pub tolerance: f64,
 }
 
 /// One descent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descent {
-    /// Points of a generation.
+    /// Population.
     pub population: usize,
-    /// Evaluations it took.
+    /// Evaluations used.
     pub evaluations: u64,
-    /// The least value it met, and where.
+    /// The point with the least value.
     pub best: Point,
-    /// Why it ended.
+    /// Reason why it ended.
     pub ending: Ending,
 }
 
-/// What all descents came to.
+/// Result of all descents.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Global {
-    /// The least value met, and where.
+    /// The point with the least value.
     pub best: Point,
     /// The descents in order.
     pub descents: Vec<Descent>,
 }
 
-/// First steps, as a part of the cube.
+/// Initial step, as a fraction of the cube.
 const FIRST_STEP: f64 = 0.3;
 
 /// Searches the unit cube for its least value. At least one generation is computed, however few evaluations there are.

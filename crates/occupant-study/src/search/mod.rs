@@ -30,23 +30,23 @@ pub use shape::Shape;
 #[cfg(test)]
 mod tests;
 
-/// What a batch of points is for.
+/// Purpose of a batch of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// A generation of a global descent, both counted from 0.
     Descent {
-        /// Which descent.
+        /// Number of the descent.
         number: usize,
-        /// Which generation of it.
+        /// Number of its generation.
         generation: usize,
     },
     /// A round of the local refinement.
     Refinement,
-    /// How far each coordinate can go alone.
+    /// Reach of each coordinate alone.
     Scan,
-    /// Curvature at the least value.
+    /// Curvature at the minimum.
     Shape,
-    /// How far each coordinate can go while the others follow.
+    /// Reach of each coordinate while the others are re-optimised.
     Profile,
 }
 
@@ -60,20 +60,20 @@ pub struct Point {
 }
 
 impl Point {
-    /// The same within the cube: what is no number stands in its middle.
+    /// The point clamped to the cube; a NaN coordinate becomes ½.
     fn in_cube(mut self) -> Point {
         self.at.iter_mut().for_each(|u| *u = if u.is_nan() { 0.5 } else { u.clamp(0.0, 1.0) });
         self
     }
 
-    /// The lower of the two; of equals this one.
+    /// The lower of the two; this one if equal.
     fn lower(self, other: Point) -> Point {
         if other.value < self.value { other } else { self }
     }
 }
 
-/// Eigenvalues and eigenvectors; those of the unit matrix for one that holds numbers that are none. An empty matrix has none:
-/// every coordinate stands at a wall.
+/// Eigenvalues and eigenvectors; those of the unit matrix if any entry is not finite. Empty if every coordinate is at a
+/// bound.
 fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
     let n = matrix.nrows();
     if n == 0 {
@@ -86,10 +86,10 @@ fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
     }
 }
 
-/// Gives the values of a batch of points in their order, or says why the search must stop. A point of which it gives none has none.
+/// Values of a batch of points in order, or the reason to stop the search. Points beyond the returned values have none.
 pub type Evaluate<'a, E> = dyn FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E> + 'a;
 
-/// Values of points, kept with them.
+/// Points with their values.
 fn evaluated<E>(stage: Stage, points: Vec<Vec<f64>>, evaluate: &mut Evaluate<'_, E>) -> Result<Vec<Point>, E> {
     if points.is_empty() {
         return Ok(Vec::new());

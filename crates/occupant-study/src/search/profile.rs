@@ -12,12 +12,12 @@ use super::quadratic::lowest_step;
 use super::shape::Shape;
 use super::{Evaluate, Point, Reach, Stage, evaluated};
 
-/// An end of an interval.
+/// End of an interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct End {
     /// The coordinate there.
     pub at: f64,
-    /// Whether the wall came before the value had risen.
+    /// Whether the bound was reached before the value had risen.
     pub open: bool,
     /// All coordinates there and the value.
     pub point: Point,
@@ -28,14 +28,14 @@ pub struct End {
 pub struct Profiles {
     /// By coordinate: lower and upper end.
     pub ends: Vec<[End; 2]>,
-    /// The lowest point met.
+    /// The lowest point found.
     pub lowest: Point,
 }
 
 const ROUNDS: usize = 8;
-/// How often the others walk for each place of a coordinate.
+/// Re-optimisations of the others per position of a coordinate.
 const WALKS: usize = 2;
-/// The rise at an end is right within this part.
+/// Relative tolerance of the rise at an end.
 const GOOD: f64 = 0.1;
 const PARTS: [f64; 3] = [0.4, 1.0, 2.0];
 
@@ -43,15 +43,15 @@ struct Chain {
     coordinate: usize,
     side: f64,
     room: f64,
-    /// How far the coordinate is set.
+    /// Distance of the coordinate from the centre.
     t: f64,
-    /// How far the others have moved for each unit of t.
+    /// Displacements of the others per unit of t.
     follow: Vec<f64>,
     best: Point,
-    /// Where the rise is too small and too great, and the rises.
+    /// Brackets: distances at which the rise is too small and too large, with the rises.
     low: (f64, f64),
     high: Option<(f64, f64)>,
-    /// The point at `low` or `high` whose rise is nearest.
+    /// The point at `low` or `high` whose rise is nearest to the target.
     end: Option<End>,
     done: bool,
 }
@@ -90,7 +90,7 @@ pub fn profile<E>(
     Ok(Profiles { ends: ends.collect(), lowest })
 }
 
-/// Sets every coordinate and lets the others follow as they did.
+/// Sets every coordinate, and displaces the others as before.
 fn begin<E>(chains: &mut [Chain], centre: &Point, evaluate: &mut Evaluate<'_, E>) -> Result<(), E> {
     let mut active: Vec<&mut Chain> = chains.iter_mut().filter(|c| !c.done).collect();
     let points = active.iter().map(|c| c.guess(centre)).collect();
@@ -101,7 +101,7 @@ fn begin<E>(chains: &mut [Chain], centre: &Point, evaluate: &mut Evaluate<'_, E>
     Ok(())
 }
 
-/// One walk of the others of every chain.
+/// One re-optimisation step of the others of every chain.
 fn walk<E>(chains: &mut [Chain], shape: &Shape, rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<(), E> {
     let others = |c: &Chain| -> Vec<usize> {
         let free = 0..shape.free.len();
@@ -192,7 +192,7 @@ impl Chain {
         at
     }
 
-    /// The step of the others to the bottom of the bowl, in units of the lengths.
+    /// The step of the others to the minimum of the quadratic model, in units of the lengths.
     fn step(&self, shape: &Shape, others: &[usize], slope: &[f64]) -> Vec<f64> {
         let n = others.len();
         if slope.len() != n || n == 0 {
@@ -210,7 +210,7 @@ impl Chain {
         lowest_step(slope, &curvature, &walls)
     }
 
-    /// Takes the rise at t, with the others where they are lowest, and moves on.
+    /// Records the rise at t with the others at their minimum, and chooses the next t.
     fn see(&mut self, centre: &Point, rise: f64) {
         let t = self.t;
         let risen = (self.best.value - centre.value) / rise;
@@ -249,7 +249,7 @@ impl Chain {
         };
     }
 
-    /// The end, between its brackets where the rise was not met closely.
+    /// The end, interpolated between its brackets if the rise was not met closely.
     fn end(&self, centre: &Point) -> End {
         let Some(end) = &self.end else {
             return End { at: centre.at[self.coordinate], open: true, point: centre.clone() };

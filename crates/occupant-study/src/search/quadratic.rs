@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::{Evaluate, Point, Stage, eigen, evaluated};
 
-/// Slope and curvature over some of the coordinates, per part of the cube.
+/// Quadratic model: gradient and curvature over some coordinates of the unit cube.
 #[derive(Clone, Debug)]
 pub struct Bowl {
     /// The coordinates.
@@ -15,7 +15,7 @@ pub struct Bowl {
     pub curvature: DMatrix<f64>,
 }
 
-/// The two offsets of a coordinate: one on each side, or both on one side of a wall.
+/// The two offsets of a coordinate: one on each side, or both on one side of a bound.
 fn offsets(u: f64, length: f64) -> [f64; 2] {
     let (down, up) = (length.min(u), length.min(1.0 - u));
     if down >= 0.2 * up && up >= 0.2 * down {
@@ -27,7 +27,7 @@ fn offsets(u: f64, length: f64) -> [f64; 2] {
     }
 }
 
-/// A bowl round `centre` through points at about `lengths` from it, and all points that were met.
+/// A quadratic model around `centre` through points at about `lengths` from it, and all points evaluated.
 ///
 /// # Errors
 /// What `evaluate` reports.
@@ -84,8 +84,7 @@ pub fn explore<E>(
 }
 
 impl Bowl {
-    /// The curvature in units of `lengths` with its negative and flat directions made to rise a little, so that it has a
-    /// lowest point: eigenvalues at least `least`.
+    /// The curvature in units of `lengths`, made positive definite: eigenvalues are raised to at least `least`.
     pub fn rising(&self, lengths: &[f64], least: f64) -> DMatrix<f64> {
         let n = self.free.len();
         let scale = |k: usize| lengths[self.free[k]];
@@ -100,7 +99,7 @@ impl Bowl {
     }
 }
 
-/// The step z that makes gᵀz + ½zᵀAz least between walls, A rising: one coordinate after the other until none moves.
+/// The step z that minimises gᵀz + ½zᵀAz within bounds, A positive definite, by coordinate descent.
 pub fn lowest_step(slope: &[f64], curvature: &DMatrix<f64>, walls: &[[f64; 2]]) -> Vec<f64> {
     let n = slope.len();
     let mut z = vec![0.0; n];

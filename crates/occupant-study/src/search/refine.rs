@@ -6,16 +6,16 @@ use super::quadratic::{explore, lowest_step};
 use super::{Evaluate, Point, Stage, evaluated};
 
 const ROUNDS: usize = 12;
-/// Points are this much closer after a round that gains little.
+/// Factor by which points move closer after a round of little gain.
 const CLOSER: f64 = 4.0;
 const CLOSEST: f64 = 1.0 / 300.0;
-/// Less than this part of the rise is little.
+/// Gain, as a fraction of the rise, that counts as little.
 const LITTLE: f64 = 1e-3;
-/// Part of the step to the bottom that are tried.
+/// Fractions of the step to the minimum that are tried.
 const PARTS: [f64; 4] = [0.3, 1.0, 1.7, 3.0];
 
-/// Walks from `centre` to the least value near it. `lengths` say how far each coordinate can go alone until the value has
-/// risen by `rise`: the size of what matters; a length that is missing is that of the cube.
+/// Moves from `centre` to the local minimum. `lengths` are the distances at which each coordinate alone raises the
+/// value by `rise`; a missing length is that of the cube.
 ///
 /// # Errors
 /// What `evaluate` reports.

@@ -3,19 +3,19 @@
 use super::bounds::{SIDES, room};
 use super::{Evaluate, Point, Stage, evaluated};
 
-/// How far a coordinate can go.
+/// Reach of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// How far, as a part of the cube.
+    /// Distance, as a fraction of the cube.
     pub length: f64,
-    /// Whether the wall came first.
+    /// Whether the bound was reached first.
     pub open: bool,
 }
 
-/// Rounds of the search for each reach.
+/// Largest number of rounds per reach.
 const ROUNDS: usize = 14;
 const FIRST: f64 = 0.02;
-/// A reach is good when the rise there is right within this factor.
+/// Tolerance factor of the rise at a reach.
 const GOOD: f64 = 1.3;
 
 /// Search for one reach.
@@ -24,13 +24,13 @@ struct Chain {
     side: f64,
     room: f64,
     next: f64,
-    /// Where the rise is too small and where it is too great.
+    /// Distances at which the rise is too small and too large.
     low: f64,
     high: Option<f64>,
     found: Option<Reach>,
 }
 
-/// The reach of each coordinate of `centre`, down and up, and the lowest point that was met.
+/// The reach of each coordinate of `centre`, down and up, and the lowest point found.
 ///
 /// # Errors
 /// What `evaluate` reports.
@@ -74,7 +74,7 @@ impl Chain {
         at
     }
 
-    /// Takes the rise at `next`, as a part of the wanted one.
+    /// Records the rise at `next`, as a fraction of the wanted one.
     fn see(&mut self, rise: f64) {
         let t = self.next;
         if rise < 1.0 && t >= self.room {

@@ -5,27 +5,27 @@ use nalgebra::DMatrix;
 use super::quadratic::{Bowl, explore};
 use super::{Evaluate, Point, Reach, Stage, eigen};
 
-/// The bowl at the least value, over the coordinates that are not held by a wall.
+/// Quadratic model at the minimum, over the coordinates that are not at a bound.
 #[derive(Clone, Debug)]
 pub struct Shape {
     /// The coordinates.
     pub free: Vec<usize>,
-    /// How far each of all coordinates can go alone, the mean of down and up.
+    /// Reach of each coordinate alone, mean of down and up.
     pub lengths: Vec<f64>,
-    /// Curvature in units of `lengths` and of the rise: 2 on its diagonal for a perfect bowl.
+    /// Curvature in units of `lengths` and of the rise: 2 on its diagonal for an exact quadratic.
     pub curvature: DMatrix<f64>,
-    /// Covariance: the square root of its diagonal is how far a coordinate can go while the others follow.
+    /// Covariance: the square root of its diagonal is the reach of a coordinate while the others are re-optimised.
     pub covariance: DMatrix<f64>,
-    /// For each direction of the bowl, flattest first: how far the coordinates go along it until the value has risen.
+    /// Principal directions, flattest first: displacement of the coordinates at which the value has risen.
     pub directions: Vec<Vec<f64>>,
 }
 
-/// The least eigenvalue that differences are trusted to show, where 2 is that of one coordinate alone.
+/// Least eigenvalue that finite differences can resolve, where a single coordinate has 2.
 const FLATTEST: f64 = 1e-5;
 
 impl Shape {
-    /// Looks round `centre` at the distance at which the value rises by `rise`. A coordinate that stands at a wall, beyond
-    /// which the value would go on falling, is left out. Hands back the lowest point met, too.
+    /// The shape around `centre`, from points where the value rises by `rise`. A coordinate at a bound beyond which the
+    /// value would fall further is left out. Also the lowest point found.
     ///
     /// # Errors
     /// What `evaluate` reports.
@@ -61,7 +61,7 @@ impl Shape {
         Shape { free: bowl.free.clone(), lengths, curvature, covariance, directions }
     }
 
-    /// Whether it is one of a cube of so many coordinates.
+    /// Whether it belongs to a cube with this many coordinates.
     pub(super) fn is_of(&self, coordinates: usize) -> bool {
         let n = self.free.len();
         let is_square = |matrix: &DMatrix<f64>| matrix.shape() == (n, n);
@@ -71,12 +71,12 @@ impl Shape {
             && is_square(&self.covariance)
     }
 
-    /// The place of a coordinate among the free ones.
+    /// Index of a coordinate among the free ones.
     pub fn place(&self, coordinate: usize) -> Option<usize> {
         self.free.iter().position(|f| *f == coordinate)
     }
 
-    /// Correlation of two coordinates among near-optimal points; none where one is held by a wall.
+    /// Correlation of two coordinates among near-optimal points; none if one is at a bound.
     pub fn correlation(&self, a: usize, b: usize) -> Option<f64> {
         let (i, j) = (self.place(a)?, self.place(b)?);
         let c = &self.covariance;
@@ -85,12 +85,12 @@ impl Shape {
     }
 }
 
-/// Whether a coordinate stands at a wall.
+/// Whether a coordinate is at a bound.
 pub(super) fn at_wall(u: f64) -> bool {
     !(1e-6..=1.0 - 1e-6).contains(&u)
 }
 
-/// Mean of the two reaches; a wall close by does not count.
+/// Mean of the two reaches; one cut short by a bound is ignored.
 fn length(reaches: &[Reach; 2]) -> f64 {
     let [down, up] = reaches;
     let mean = match (down.open, up.open) {

@@ -18,18 +18,18 @@ use occupant_core::motion::frame::{Frames, Moving, VEHICLE};
 use occupant_core::motion::state::State;
 use occupant_core::vehicle::PathCursor;
 
-/// Step of the differences as a part of the parameter's size.
+/// Step of the differences, relative to the parameter's size.
 const STEP: f64 = 1e-3;
-/// Relative distance of two extrapolations beyond which there is no slope.
+/// Relative difference of two extrapolations above which there is no slope.
 const ROUGH: f64 = 1e-2;
-/// A number below this is compared with this: it may be a trace of rounding.
+/// Scale for relative differences of smaller numbers, which may be rounding errors.
 const SMALL: f64 = 1e-6;
-/// Numbers of the motion of a frame.
+/// Number of components of a frame's motion.
 const MOTION: usize = 24;
-/// Those of them that all forces depend on; the rest are accelerations, which may jump.
+/// Components that all forces depend on; the rest are accelerations, which may jump.
 const PLACE_AND_SPEED: usize = 18;
 
-/// How the numbers of a model change with a parameter.
+/// Derivatives of a model's numbers with respect to parameters.
 #[derive(Clone, Debug)]
 pub struct Built {
     system: Vec<f64>,
@@ -38,25 +38,25 @@ pub struct Built {
     /// Times at which steps end and how they shift, s and s per unit, in increasing order.
     shifts: Vec<[f64; 2]>,
     path: Option<Path>,
-    /// Largest distance of two extrapolations, as a part of the number or of its change.
+    /// Largest difference of two extrapolations, relative to the number or its change.
     pub doubt: f64,
-    /// What a user should know.
+    /// Notes for the user.
     pub notes: Vec<String>,
 }
 
-/// The frames of models on the points of a ladder.
+/// Vehicle frames of models at the points of a ladder.
 #[derive(Clone, Debug)]
 struct Path {
     ladder: Ladder,
     models: Vec<Model>,
     cursors: Vec<PathCursor>,
     size: f64,
-    /// Largest distance of two extrapolations, and when.
+    /// Largest difference of two extrapolations, and its time, s.
     doubt: (f64, f64),
 }
 
 impl Built {
-    /// Slopes of everything that `base` is built of.
+    /// Derivatives of everything that `base` is built from.
     ///
     /// # Errors
     /// Models beside the parameter's value that are refused or of another structure; a start that is not smooth.
@@ -137,41 +137,41 @@ impl Built {
         Ok(Built { system, state, history, shifts, path: Path::new(base, family, parameter.size), doubt, notes })
     }
 
-    /// Whether it is of a model of this structure.
+    /// Whether it belongs to a model of this structure.
     pub(super) fn is_of(&self, model: &Model) -> bool {
         let start = model.start();
         let counts = [system_numbers(model.system()).len(), start.state.numbers().len()];
         counts == [self.system.len(), self.state.len()] && remembered(&start.history.memory).len() == self.history.len()
     }
 
-    /// How the end of a step at a time shifts, s per unit; of things that fall together the last in the order of the setup.
+    /// Shift of a step's end at a time, s per unit; of coincident events the last in the order of the setup.
     pub(super) fn shift(&self, time_s: f64) -> f64 {
         let from = self.shifts.partition_point(|[at_s, _]| *at_s < time_s - ROUNDING_S);
         let here = self.shifts[from..].iter().take_while(|[at_s, _]| *at_s <= time_s + ROUNDING_S);
         here.last().map_or(0.0, |[_, shift]| *shift)
     }
 
-    /// Largest distance of two extrapolations of the vehicle's motion and its time, s; none if the parameter leaves the
-    /// path alone.
+    /// Largest difference of two extrapolations of the vehicle's motion and its time, s; none if the parameter does not
+    /// affect the path.
     pub fn path_doubt(&self) -> Option<(f64, f64)> {
         self.path.as_ref().map(|p| p.doubt)
     }
 }
 
-/// Times with their shifts in increasing order; those of one time stay in theirs.
+/// Times with their shifts in increasing order; a stable sort.
 fn in_order(times_s: Vec<f64>, shifts: Vec<f64>) -> Vec<[f64; 2]> {
     let mut list: Vec<[f64; 2]> = times_s.into_iter().zip(shifts).map(|(time_s, shift)| [time_s, shift]).collect();
     list.sort_by(|a, b| a[0].total_cmp(&b[0]));
     list
 }
 
-/// Whether the run of a model continues across a time.
+/// Whether a time is inside the run of a model, before its end.
 fn is_within(base: &Model, time_s: f64) -> bool {
     let time = &base.setup().time;
     time.start_s < time_s && time_s < time.end_s
 }
 
-/// The first time within the run at which two things fall together that shift apart, s.
+/// The first time within the run at which two coincident events shift differently, s.
 fn coincidence(base: &Model, shifts: &[[f64; 2]]) -> Option<f64> {
     let within = |[a, b]: [[f64; 2]; 2]| b[0] - a[0] <= ROUNDING_S && is_within(base, a[0]);
     let apart = |[a, b]: [[f64; 2]; 2]| (a[1] - b[1]).abs() > ROUGH * a[1].abs().max(b[1].abs());
@@ -179,7 +179,7 @@ fn coincidence(base: &Model, shifts: &[[f64; 2]]) -> Option<f64> {
     pairs.find(|pair| within(*pair) && apart(*pair)).map(|[a, _]| a[0])
 }
 
-/// Distance of two extrapolations of a slope as a part of the change that a change of `size` makes, or of the number.
+/// Difference of two extrapolations of a slope, relative to the change for a change of `size`, or to the number.
 fn relative(slope: &Slope, value: f64, size: f64) -> f64 {
     let scale = (slope.value * size).abs().max(value.abs()).max(SMALL);
     if scale.is_finite() { slope.doubt * size / scale } else { 0.0 }
@@ -207,7 +207,7 @@ impl Path {
         models.map(|(model, cursor)| model.frames(t_s, middle_s, cursor)).collect()
     }
 
-    /// Slopes of the motion of a frame, whose numbers are `at_base`.
+    /// Derivatives of a frame's motion, whose numbers are `at_base`.
     fn slopes(&mut self, at_base: &[f64; MOTION], all: &[Frames<f64>], frame: usize, t_s: f64) -> [f64; MOTION] {
         let mut values = [[0.0; MOTION]; POINTS];
         for (values, frames) in values.iter_mut().zip(all) {
@@ -234,7 +234,7 @@ fn system_numbers(system: &System<f64>) -> Vec<f64> {
     list.into_inner()
 }
 
-/// The numbers that force elements remember, in the order of [`Memory::each`], the phases of pairs as 0.
+/// Numbers of the stored state of force elements, in the order of [`Memory::each`], the phases of pairs as 0.
 fn remembered(memory: &Memory<f64>) -> Vec<f64> {
     let mut memory = memory.clone();
     for pair in &mut memory.contacts {
@@ -256,14 +256,14 @@ fn motion_numbers(motion: &Moving<f64>) -> [f64; MOTION] {
     numbers
 }
 
-/// The dual number of place `at`, which moves on by one.
+/// The dual number at position `at`, which is advanced by one.
 fn next<const N: usize>(value: f64, at: &Cell<usize>, slope: impl Fn(usize, usize) -> f64) -> Dual<N> {
     let place = at.get();
     at.set(place + 1);
     Dual::new(value, from_fn(|k| slope(k, place)))
 }
 
-/// The system of `model` in duals; direction k is that of `built[k]`, directions beyond are at rest.
+/// The system of `model` in dual numbers; direction k is that of `built[k]`, further directions are zero.
 pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Result<System<Dual<N>>, Trouble> {
     let at = Cell::new(0);
     let slope = |k: usize, i: usize| built.get(k).map_or(0.0, |b| b.system[i]);
@@ -273,7 +273,7 @@ pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Res
     dual.map_err(|unlike| Trouble::Output(unlike.to_string()))
 }
 
-/// The state at the start in duals.
+/// Initial state in dual numbers.
 pub(super) fn dual_state<const N: usize>(model: &Model, built: &[Built]) -> State<Dual<N>> {
     let start = &model.start().state;
     let mut dual = start.zip(start, |x, _| Dual::new(x, [0.0; N]));
@@ -285,7 +285,7 @@ pub(super) fn dual_state<const N: usize>(model: &Model, built: &[Built]) -> Stat
     dual
 }
 
-/// The history at the start in duals.
+/// Initial history in dual numbers.
 pub(super) fn dual_history<const N: usize>(
     model: &Model,
     system: &System<Dual<N>>,
@@ -296,7 +296,7 @@ pub(super) fn dual_history<const N: usize>(
     History::new(&system.forces, model.start().history.memory.map(&mut |value| next(value, &at, slope)))
 }
 
-/// The frames at `t_s` in duals.
+/// Frames at `t_s` in dual numbers.
 pub(super) fn dual_frames<const N: usize>(
     plain: &Frames<f64>,
     built: &mut [Built],

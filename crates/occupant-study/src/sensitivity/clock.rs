@@ -14,12 +14,12 @@ use occupant_core::motion::frame::{Frames, Moving};
 use occupant_core::motion::state::State;
 use occupant_core::motion::vector::{M3, V3};
 
-/// Slopes of a time in all directions.
+/// Derivatives of a time in all directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Clock<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> Clock<N> {
-    /// A time that nothing shifts.
+    /// A time that does not shift.
     pub const FIXED: Self = Clock([0.0; N]);
 
     /// The end of a step, free to shift.
@@ -27,25 +27,25 @@ impl<const N: usize> Clock<N> {
         Clock(from_fn(|k| if k + 1 == N { 1.0 } else { 0.0 }))
     }
 
-    /// The time at which something comes to its level, of which this number, at the free end of a step, is what is left, as a part
-    /// of a way that continues.
+    /// The time at which a quantity reaches its level; `left` is the remaining distance at the free end of a step, as a
+    /// fraction.
     pub fn of_level(left: &Dual<N>) -> Option<Self> {
         let rate = left.slopes[N - 1];
         let shift = |k: usize| if k + 1 == N { 0.0 } else { -left.slopes[k] / rate };
         (rate < 0.0).then(|| Clock(from_fn(shift)))
     }
 
-    /// Part `s` of the way from this time to the end of a step.
+    /// Time at fraction `s` between this time and the end of a step.
     pub fn towards_end(&self, s: f64) -> Self {
         Clock(from_fn(|k| (1.0 - s) * self.0[k] + s * Self::free().0[k]))
     }
 
-    /// The time from this to a `later` one, s.
+    /// Duration from this time to a `later` one, s.
     pub fn until(&self, later: &Self, h: f64) -> Dual<N> {
         Dual::new(h, from_fn(|k| later.0[k] - self.0[k]))
     }
 
-    /// A number at the free end of a step, where that end is at this time.
+    /// Fixes the end time of a step for a number there.
     fn fix(&self, x: &mut Dual<N>) {
         let rate = std::mem::replace(&mut x.slopes[N - 1], 0.0);
         for (slope, shift) in x.slopes.iter_mut().zip(&self.0) {
@@ -53,17 +53,17 @@ impl<const N: usize> Clock<N> {
         }
     }
 
-    /// A state.
+    /// The same for a state.
     pub fn fix_state(&self, state: &mut State<Dual<N>>) {
         state.numbers_mut().iter_mut().for_each(|x| self.fix(x));
     }
 
-    /// What is remembered; `spare` is of the same elements.
+    /// The same for stored state; `spare` is of the same elements.
     pub fn fix_memory(&self, memory: &mut Memory<Dual<N>>, spare: &mut Memory<Dual<N>>) {
         memory.each(spare, &mut |x, _| self.fix(x));
     }
 
-    /// Takes `frames` along with their time; `jerk` is how fast their accelerations change.
+    /// Moves `frames` along with their time; `jerk` is the rate of change of their accelerations.
     pub fn carry(&self, frames: &mut Frames<Dual<N>>, jerk: &Jerk) {
         frames.time.slopes = self.0;
         for (i, moving) in frames.moving.iter_mut().enumerate() {
@@ -95,13 +95,13 @@ fn values<const N: usize>(v: &V3<Dual<N>>) -> V3<f64> {
     V3 { x: v.x.value, y: v.y.value, z: v.z.value }
 }
 
-/// How fast the accelerations of frames change over a step, m/s³ and rad/s³.
+/// Rate of change of frame accelerations over a step, m/s³ and rad/s³.
 pub(super) struct Jerk {
     ends: Option<[Frames<f64>; 2]>,
 }
 
 impl Jerk {
-    /// At an instant.
+    /// For an instant.
     pub const NONE: Jerk = Jerk { ends: None };
 
     /// Between two instants.

@@ -14,68 +14,68 @@ use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_scenario::ending::Ending;
 
-/// Changes as parts of a parameter's size, to either side.
+/// Finite changes to either side, relative to a parameter's size.
 pub const CHANGES: [f64; 3] = [2e-3, 5e-3, 1e-2];
-/// A time is changed by at least so many steps as well: less may lie between two of them.
+/// Least change of a time, in steps: smaller ones may fall between two steps.
 const STEPS: f64 = 4.0;
-/// But by no more than this part.
+/// Largest relative change of a time.
 const MOST: f64 = 0.2;
-/// Part of the tolerances and of the least step of the run itself, or of the default's where these are tighter.
+/// Factor on the tolerances and the least step of the run, or of the defaults where these are tighter.
 const TIGHTER: f64 = 0.01;
-/// But no finer than a model allows.
+/// Finest tolerances and steps that a model allows.
 const FINEST: [f64; 4] = [1e-13, 1e-14, 1e-13, 1e-15];
 
-/// What a run beside the value of a parameter comes to.
+/// Result of a run at a changed parameter value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Beside {
     /// The scenario refuses the value.
     Refused,
     /// The run was not completed.
     Broken,
-    /// All that is asked of it.
+    /// The results.
     Ran(Seen),
 }
 
-/// What is asked of a run.
+/// Requested results of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seen {
-    /// Figures, not a number where it has none.
+    /// Figures; NaN where missing.
     pub figures: Vec<f64>,
-    /// When each was reached, s; not a number where that is not told.
+    /// Time of each, s; NaN where unknown.
     pub times_s: Vec<f64>,
-    /// Sphere and surface of first contacts, in their order.
+    /// First contacts in order, as sphere and surface.
     pub touches: Vec<[usize; 2]>,
 }
 
 /// The runs to either side of a parameter's value.
 #[derive(Clone, Debug)]
 pub struct Finite {
-    /// The change as a part of the parameter's size.
+    /// The change relative to the parameter's size.
     pub part: f64,
     /// The change.
     pub change: f64,
-    /// Below and above.
+    /// Runs below and above.
     pub sides: [Beside; 2],
 }
 
-/// The run itself and those beside it.
+/// The nominal run and its neighbours.
 #[derive(Clone, Debug)]
 pub struct Neighbours {
-    /// At the values of all parameters.
+    /// At the nominal values of all parameters.
     pub here: Beside,
     /// By parameter, then by change.
     pub finite: Vec<Vec<Finite>>,
 }
 
-/// The changes at which a parameter of this size and unit is looked at, as parts of it, where steps are `step_s` long in the mean.
+/// Relative changes to try for a parameter of this size and unit, with mean steps of `step_s`.
 pub fn changes(parameter: &Parameter<'_>, step_s: f64) -> Vec<f64> {
     let several = (STEPS * step_s / parameter.size).min(MOST);
     let more = (parameter.unit == "s" && several > CHANGES[CHANGES.len() - 1]).then_some(several);
     CHANGES.into_iter().chain(more).collect()
 }
 
-/// Runs `model` and the models beside the values of the parameters, on all threads of rayon's pool; `figures` are the names
-/// asked for, `step_s` the mean step. The same bits for any number of threads.
+/// Runs `model` and its neighbours, on all threads of rayon's pool; `figures` are the names requested, `step_s` the
+/// mean step. Same bits for any number of threads.
 pub fn neighbours(model: &Model, parameters: &[Parameter<'_>], step_s: f64, figures: &[String]) -> Neighbours {
     neighbours_watched(model, parameters, step_s, figures, &|_, _| ())
 }
@@ -114,7 +114,7 @@ pub fn neighbours_watched(
     all
 }
 
-/// The same case at tolerances that leave no steps to be seen, recorded as often as figures to be differentiated ask for.
+/// The same case at tight tolerances, recorded densely enough for figures to be differentiated.
 pub fn tightly(model: Model) -> Model {
     let integrator = tight(&model.setup().integrator);
     // what a model cannot have it keeps as it was
@@ -151,7 +151,7 @@ fn tight(own: &Integrator) -> Integrator {
     tight
 }
 
-/// What there is to see of the runs.
+/// Results of the runs.
 fn run<T>(jobs: Vec<Job<T, Summarizer>>, figures: &[String], ran: &impl Fn()) -> Vec<(T, Beside)> {
     let mut all = Vec::with_capacity(jobs.len());
     let times: Vec<String> = figures.iter().map(|name| format!("{name}_time")).collect();
@@ -176,7 +176,7 @@ impl Beside {
         self.seen().and_then(|seen| seen.figures.get(i).copied()).filter(|x| x.is_finite())
     }
 
-    /// What there is to see.
+    /// The results, if it was completed.
     pub fn seen(&self) -> Option<&Seen> {
         if let Beside::Ran(seen) = self { Some(seen) } else { None }
     }

@@ -4,7 +4,7 @@
 //! and its distance from R(h), with the last digit of f over the step, says how far it can be trusted. Where only one side of p is possible, D(h) is
 //! (f(p + h) − f(p))/h and one more extrapolation is needed.
 
-/// On which sides of p the function can be asked.
+/// Sides of p on which a function can be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Both,
@@ -12,24 +12,24 @@ pub(super) enum Side {
     Below,
 }
 
-/// A slope, and how far it can be trusted.
+/// A slope and its uncertainty.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slope {
     /// The slope.
     pub value: f64,
-    /// Distance from the slope that larger steps give, and rounding.
+    /// Difference from the slope of larger steps, plus rounding.
     pub doubt: f64,
 }
 
 impl Slope {
-    /// Of something that does not change.
+    /// Slope of a constant.
     pub const ZERO: Slope = Slope { value: 0.0, doubt: 0.0 };
 }
 
-/// Most points of a ladder.
+/// Largest number of points of a ladder.
 pub(super) const POINTS: usize = 6;
 
-/// The places at which a function is asked.
+/// Points at which a function is evaluated.
 #[derive(Clone, Debug)]
 pub(super) struct Ladder {
     side: Side,
@@ -51,7 +51,7 @@ impl Ladder {
         Ladder { side, base, points }
     }
 
-    /// The slope of a function with these values at the points, and `at_base` at p.
+    /// Slope of a function from its values at the points, and `at_base` at p.
     pub fn slope(&self, at_base: f64, values: &[f64]) -> Slope {
         let p = &self.points;
         let quotient = |a: f64, b: f64, span: f64| if a == b { 0.0 } else { (a - b) / span };
@@ -80,7 +80,7 @@ impl Ladder {
         Slope { value, doubt: (value - other).abs() + rounding }
     }
 
-    /// The slopes of several functions at once; `values` by point.
+    /// Slopes of several functions at once; `values` by point.
     pub fn slopes(&self, at_base: &[f64], values: &[Vec<f64>]) -> Vec<Slope> {
         let mut column = [0.0; POINTS];
         let count = self.points.len();

@@ -23,12 +23,12 @@ use occupant_core::run::simulate::replay;
 use placed_text::Problem;
 use placed_text::nearest;
 
-/// How far outputs are displaced at most, m and rad.
+/// Largest displacements of outputs, m and rad.
 const FARTHEST: [f64; 3] = [1e-6, 2e-5, 4e-4];
-/// The parameter is changed by no more than this part of its size.
+/// Largest change of the parameter, relative to its size.
 const LARGEST_PART: f64 = 1e-3;
 
-/// What the derivatives of a run are asked of.
+/// Quantities to differentiate.
 #[derive(Clone, Debug, Default)]
 pub struct Request {
     /// Names of figures, as [`occupant_core::results::summary::Summary::figures`] has them.
@@ -37,10 +37,10 @@ pub struct Request {
     pub channels: Vec<Channel>,
 }
 
-/// What there is for each figure and for each output of each channel of a run.
+/// One answer per figure and per output of each channel.
 #[derive(Clone, Debug, Default)]
 pub struct Answers<T> {
-    /// In the order of [`Request::figures`]; not a number where the run has none.
+    /// In the order of [`Request::figures`]; NaN where missing.
     pub figures: Vec<T>,
     /// By channel, then by output.
     pub channels: Vec<Vec<T>>,
@@ -112,7 +112,7 @@ fn displaced(
 }
 
 impl Derivatives {
-    /// Takes over what another size of displacement tells with less doubt.
+    /// Takes over the answers of another displacement where they are less uncertain.
     fn take_over(&mut self, other: &Derivatives) {
         let ours = self.channels.iter_mut().flatten();
         let ours = self.figures.iter_mut().chain(ours);
@@ -133,7 +133,7 @@ pub fn plain_values(model: &Model, trajectory: &Trajectory, request: &Request) -
     values(model, trajectory, request, |output| trajectory.checkpoints[output].clone())
 }
 
-/// Values of outputs of `model` that need not be those of its own run.
+/// Values from outputs of `model` that need not come from its own run.
 fn values(
     model: &Model,
     trajectory: &Trajectory,
@@ -173,7 +173,7 @@ fn values(
     Ok(Values { figures: pick(&figures, &request.figures), channels: series.values })
 }
 
-/// The sums and extremes of a run that begins here.
+/// Sums and extremes at the start of a run.
 fn from_the_start(model: &Model, checkpoint: &Checkpoint) -> Result<Progress, Trouble> {
     let mut first = checkpoint.clone();
     first.progress.energy_start = EnergyStart::default();
@@ -186,7 +186,7 @@ fn from_the_start(model: &Model, checkpoint: &Checkpoint) -> Result<Progress, Tr
     Ok(progress)
 }
 
-/// The values of named figures; not a number for one that is not there or has no value.
+/// Values of named figures; NaN where missing.
 pub fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
     let value = |name: &String| {
         let figure = figures.iter().find(|f| f.name == *name);
@@ -195,8 +195,7 @@ pub fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
     names.iter().map(value).collect()
 }
 
-/// The figures of a run that a name, or a pattern in which `*` stands for anything, asks for. A pattern passes over figures
-/// without a value or a derivative.
+/// Figures of a run selected by a name or a pattern with `*`. A pattern skips figures without a value or a derivative.
 ///
 /// # Errors
 /// A name or a pattern that fits none; a figure that the run has not, or that has no derivative.
@@ -233,7 +232,7 @@ pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Problem> {
     Ok(vec![name.to_owned()])
 }
 
-/// Why a figure has no derivative here, if it has none.
+/// Reason why a figure has no derivative here, if any.
 pub fn without_derivative(name: &str) -> Option<&'static str> {
     let last = name.rsplit('.').next().unwrap_or(name);
     if name.starts_with("solver.") {

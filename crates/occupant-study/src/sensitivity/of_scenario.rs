@@ -6,8 +6,8 @@ use crate::{ApplyChoice, Law, Target, Value};
 use occupant_scenario::{Draft, Resolver, Wanted};
 use placed_text::Problem;
 
-/// The parameter at a path: the number that stands there, or for a path to several numbers, such as `joints.*.damping`, a
-/// factor on all of them.
+/// The parameter at a path: the number there, or a common factor if the path means several numbers, as in
+/// `joints.*.damping`.
 ///
 /// # Errors
 /// A path that does not exist, to no number, or to numbers that a factor does not change.

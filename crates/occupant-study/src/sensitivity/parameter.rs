@@ -7,18 +7,18 @@ use super::trouble::Trouble;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 
-/// Makes the model that belongs to a value of a parameter, or says in words why there is none.
+/// The model at a parameter value, or the reason why there is none.
 pub type ModelAt<'a> = dyn Fn(f64) -> Result<Model, String> + 'a;
 
 /// A number that a model depends on.
 pub struct Parameter<'a> {
-    /// What it is called.
+    /// Name.
     pub name: String,
     /// Its SI unit; `1` for a plain number or a factor.
     pub unit: String,
-    /// Its value in the model that is looked at.
+    /// Its value in the nominal model.
     pub nominal: f64,
-    /// A change that is large but not absurd: |nominal|, or for 0 what its unit suggests; see [`size_of`].
+    /// A large but plausible change: |nominal|, or for 0 one by its unit; see [`size_of`].
     pub size: f64,
     /// The models around it.
     pub model_at: Box<ModelAt<'a>>,
@@ -31,7 +31,7 @@ impl fmt::Debug for Parameter<'_> {
 }
 
 impl<'a> Parameter<'a> {
-    /// The same number of models that are `made` of these, integrated or recorded in another way.
+    /// The same parameter with models `made` from these, integrated or recorded differently.
     #[must_use]
     pub fn of_models(&'a self, made: impl Fn(Model) -> Model + 'a) -> Parameter<'a> {
         let model_at = move |value: f64| (self.model_at)(value).map(&made);
@@ -40,11 +40,11 @@ impl<'a> Parameter<'a> {
     }
 }
 
-/// The longest interval of outputs of which figures are made to be differentiated, s.
+/// Longest output interval for figures that are differentiated, s.
 const FINE_S: f64 = 1e-4;
 
-/// The interval at which a run is recorded for the derivatives of its figures, s: a part of its own, and where steps end at
-/// outputs so many steps that the run stays as it is.
+/// Output interval for the derivatives of figures, s: an integer fraction of the run's own; where steps end at outputs,
+/// chosen so that the run is unchanged.
 pub fn fine_interval_s(model: &Model) -> f64 {
     let (own_s, setup) = (model.setup().time.output_s, model.setup());
     let Integrator::Rk4 { step_s } = setup.integrator else { return own_s / (own_s / FINE_S - 1e-9).ceil().max(1.0) };
@@ -57,7 +57,8 @@ pub fn fine_interval_s(model: &Model) -> f64 {
     own_s / (steps / of)
 }
 
-/// The size of a change of a parameter: its own, or for 0 that of 0.1 in units of length and angle, 0.01 kg·m² and 1 in any other.
+/// Size of a change of a parameter: its own, or for 0, 0.1 in units of length and angle, 0.01 kg·m², and 1 in any
+/// other.
 pub fn size_of(nominal: f64, unit: &str) -> f64 {
     match (nominal == 0.0, unit) {
         (false, _) => nominal.abs(),
@@ -67,16 +68,16 @@ pub fn size_of(nominal: f64, unit: &str) -> f64 {
     }
 }
 
-/// The models on the points of a ladder.
+/// Models at the points of a ladder.
 pub(super) struct Family {
     pub ladder: Ladder,
     pub models: Vec<Model>,
-    /// Why there are models on one side only, if so.
+    /// Reason for models on one side only, if so.
     pub one_sided: Option<String>,
 }
 
 impl Family {
-    /// Models of the structure and the times of `base` at steps of `h` about it.
+    /// Models at steps of `h`, with the structure and times of `base`.
     ///
     /// # Errors
     /// A value that the scenario refuses to both sides.
@@ -99,7 +100,7 @@ impl Family {
     }
 }
 
-/// Whether `other` has the structure, the times and the integrator of `base`.
+/// Whether `other` has the same structure, times and integrator as `base`.
 fn compare(base: &Model, other: &Model, parameter: &str) -> Result<(), Trouble> {
     let (a, b) = (base.setup(), other.setup());
     if a.time != b.time || a.integrator != b.integrator {

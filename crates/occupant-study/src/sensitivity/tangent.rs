@@ -16,39 +16,39 @@ use occupant_core::motion::state::State;
 use occupant_core::run::Step;
 use occupant_core::vehicle::PathCursor;
 
-/// A run in progress, with its derivatives in `N` directions, of which the last is the end of the latest step.
+/// A run in progress with its derivatives in `N` directions, the last of which is the end time of the latest step.
 pub(super) struct Tangent<'a, const N: usize> {
     model: &'a Model,
     built: &'a mut [Built],
     system: System<Dual<N>>,
     scratch: Scratch<Dual<N>>,
-    /// As an output shows them, at a fixed time.
+    /// State at an output, at a fixed time.
     pub state: State<Dual<N>>,
     pub history: History<Dual<N>>,
     cursor: PathCursor,
     front: Front<N>,
 }
 
-/// The latest step, at whose end the integration stands. Under error control that runs ahead of the outputs, as the plain run's
-/// front does.
+/// The latest step, at whose end the integration is. Under error control it is ahead of the outputs, as in the plain
+/// run.
 struct Front<const N: usize> {
     step: Step,
-    /// The time of the start and of the end. The end is free until the next step begins.
+    /// Start and end time. The end is free until the next step begins.
     begun: Clock<N>,
     end: Clock<N>,
     from: State<Dual<N>>,
     to: State<Dual<N>>,
     /// Rates at `from` and `to`.
     rates: [State<Dual<N>>; 2],
-    /// Whether the rate at `to` is that of the step to come.
+    /// Whether the rate at `to` is that of the next step.
     rate_is_known: bool,
-    /// At a fixed step: whether the history has taken over `to`.
+    /// For a fixed step: whether the history includes `to`.
     is_committed: bool,
-    /// History at `from`; at a fixed step that before `to` is taken over.
+    /// History at `from`; for a fixed step before `to` is included.
     before: History<Dual<N>>,
     /// History at `to`.
     after: History<Dual<N>>,
-    /// Room for the history of the next step's end.
+    /// Buffer for the history at the next step's end.
     spare: History<Dual<N>>,
 }
 
@@ -87,7 +87,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         })
     }
 
-    /// The frames at `t_s`, a time that shifts as `clock` says.
+    /// Frames at `t_s`, a time that shifts with `clock`.
     fn frames(&mut self, t_s: f64, middle_s: f64, clock: &Clock<N>, jerk: &Jerk) -> Frames<Dual<N>> {
         let plain = self.model.frames(t_s, middle_s, &mut self.cursor);
         let mut frames = dual_frames(&plain, self.built, t_s, middle_s);
@@ -95,13 +95,13 @@ impl<'a, const N: usize> Tangent<'a, N> {
         frames
     }
 
-    /// How fast accelerations change over a step.
+    /// Rate of change of accelerations over a step.
     fn jerk(&mut self, step: Step, middle_s: f64) -> Jerk {
         let ends = [step.start_s, step.end_s].map(|t_s| self.model.frames(t_s, middle_s, &mut self.cursor));
         Jerk::between(&ends[0], &ends[1])
     }
 
-    /// Takes an output's position over into the history, as [`occupant_core::run::Run::record`] does.
+    /// Includes an output's state in the history, as [`occupant_core::run::Run::record`] does.
     pub fn output(&mut self, time_s: f64, scene: &mut Scene<N>) {
         match self.model.setup().integrator {
             Integrator::Adaptive { .. } => {
@@ -124,7 +124,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         }
     }
 
-    /// Evaluates what is shown, with a commit.
+    /// Evaluates the shown state and commits it.
     fn look(&mut self, time_s: f64, frames: &Frames<Dual<N>>, scene: &mut Scene<N>) {
         scene.begin(time_s, &self.state);
         let Tangent { system, scratch, state, history, .. } = self;
@@ -132,7 +132,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         rate(system, scratch, situation, history, Some(&mut scene.actions), &mut k);
     }
 
-    /// A step that the plain run has taken; `stop_s` is the next break of the path, `scene` sees where it began.
+    /// Follows a step of the plain run; `stop_s` is the next break of the path, `scene` sees the start of the step.
     pub fn step(&mut self, step: Step, stop_s: f64, scene: &mut Scene<N>) {
         match self.model.setup().integrator {
             Integrator::Rk4 { .. } => self.rk4(step, scene),
@@ -140,7 +140,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         }
     }
 
-    /// Where the latest step ends when a parameter changes: where something switches, or what is due before the run.
+    /// Shift of the latest step's end: an event time, or a time known before the run.
     fn end(&self) -> Clock<N> {
         let now_s = self.front.step.end_s;
         let shift = |k: usize| self.built.get(k).map_or(0.0, |built| built.shift(now_s));
@@ -150,7 +150,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         self.switch().unwrap_or_else(|| Clock(std::array::from_fn(shift)))
     }
 
-    /// The time of a switch at the end of the latest step, if there is one that can be followed.
+    /// Time of a switch at the end of the latest step, if it can be differentiated.
     fn switch(&self) -> Option<Clock<N>> {
         let Front { step, begun, end, before, after, .. } = &self.front;
         let [from, to] = [before, after].map(|history| &history.memory);
@@ -186,7 +186,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         (front.step, front.begun, front.end, front.is_committed) = (step, begun, Clock::free(), false);
     }
 
-    /// Puts the end of the latest step where the parameters shift it to; the next step begins there.
+    /// Shifts the end of the latest step with the parameters; the next step begins there.
     fn depart(&mut self) -> Clock<N> {
         let begun = self.end();
         let Front { to, rates: [_, rate], after, spare, .. } = &mut self.front;
@@ -196,7 +196,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         begun
     }
 
-    /// As the adaptive run takes an accepted step; `scene` sees where it ended.
+    /// Follows an accepted step of the adaptive run; `scene` sees its end.
     fn embedded(&mut self, step: Step, stop_s: f64, scene: &mut Scene<N>) {
         let t = step.start_s;
         let middle_s = 0.5 * (t + step.end_s);
@@ -237,7 +237,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
 }
 
 impl<const N: usize> Front<N> {
-    /// Keeps the history as it is before the end of a fixed step is taken over.
+    /// Keeps the history from before the end of a fixed step.
     fn keep(&mut self) {
         if !self.is_committed {
             self.before.take_over(&self.after);
@@ -261,7 +261,7 @@ impl<const N: usize> Front<N> {
     }
 }
 
-/// The rate, which `actions` shows: the kernel in duals is large, and this is the only copy of it.
+/// The rate, also written to `actions`. The kernel in dual numbers is large: this is its only instantiation.
 #[inline(never)]
 fn rate<const N: usize>(
     system: &System<Dual<N>>,

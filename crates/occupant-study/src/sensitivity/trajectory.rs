@@ -22,34 +22,34 @@ use occupant_core::run::{Run, Step};
 /// 13, 7 instructions with two slopes in a register, 4 with four: a parameter alone takes at most 1.75 times as long as in a
 /// kernel of its own.
 const SIDE_BY_SIDE: usize = 4;
-/// Those of them that are of parameters; the last is of the ends of steps.
+/// Directions available to parameters; the last is for the ends of steps.
 const OF_PARAMETERS: usize = SIDE_BY_SIDE - 1;
 
-/// A run with the derivatives of all that is integrated and remembered, at every output.
+/// A run with derivatives of its integrated and stored state, at every output.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     /// The plain run's outputs.
     pub checkpoints: Vec<Checkpoint>,
     /// How it ended.
     pub outcome: Outcome,
-    /// Where the motion is not differentiable.
+    /// Events where the motion is not differentiable.
     pub events: Vec<Event>,
-    /// Events beyond the number that is kept.
+    /// Number of events not kept.
     pub dropped_events: u64,
     /// By parameter, then by output.
     slopes: Vec<Vec<Displacement>>,
     shape: Shape,
 }
 
-/// How an output changes with a parameter, per unit.
+/// Derivative of an output with respect to a parameter, per unit.
 #[derive(Clone, Debug)]
 struct Displacement {
     state: Vec<f64>,
-    /// Remembered numbers that change, by their place in the order of [`Memory::each`].
+    /// Changing numbers of the stored state, by position in the order of [`Memory::each`].
     memory: Vec<(u32, f64)>,
 }
 
-/// Runs `model` with derivatives by the parameters that `built` is of. What `built` knows of the path is asked on the way.
+/// Runs `model` with derivatives by the parameters of `built`. The path's derivatives are evaluated on the way.
 ///
 /// # Errors
 /// What was built of another model; a run that does not come to its end.
@@ -57,7 +57,7 @@ pub fn follow(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble>
     follow_watched(model, built, &mut |_, _| ())
 }
 
-/// The same; `computed` is called with the number of computed outputs and of all outputs, those of every pass.
+/// As [`follow`]; `computed` is called with the number of computed outputs and of all outputs, over all passes.
 ///
 /// # Errors
 /// As [`follow`].
@@ -96,7 +96,7 @@ impl Recorder for Keeper {
     }
 }
 
-/// The plain run and beside it, step by step, that in duals.
+/// The plain run and the run in dual numbers, step by step.
 fn pass<const N: usize>(
     model: &Model,
     built: &mut [Built],
@@ -136,7 +136,7 @@ fn pass<const N: usize>(
     Ok(Trajectory { checkpoints: keeper.0, outcome, events, dropped_events, slopes, shape })
 }
 
-/// Room for the steps between two outputs.
+/// Buffer for the steps between two outputs.
 fn steps_to_an_output(model: &Model) -> usize {
     let time = &model.setup().time;
     match model.setup().integrator {
@@ -145,7 +145,7 @@ fn steps_to_an_output(model: &Model) -> usize {
     }
 }
 
-/// Whether the values of the run in duals are, to the bit, those of the plain run.
+/// Checks that the values of the dual run equal those of the plain run bit for bit.
 fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run<'_>) -> Result<(), Trouble> {
     let values = tangent.state.numbers().iter().map(|x| x.value);
     let state = values.zip(run.state().numbers()).all(|(a, b)| a.to_bits() == b.to_bits());
@@ -156,7 +156,7 @@ fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run<'_>) -> Result<()
 }
 
 impl Displacement {
-    /// Direction `k` of a run in duals at an output.
+    /// Direction `k` of a dual run at an output.
     fn of<const N: usize>(tangent: &Tangent<'_, N>, k: usize) -> Self {
         let state = tangent.state.numbers().iter().map(|x| x.slopes[k]).collect();
         let mut slopes = Vec::new();
@@ -167,19 +167,19 @@ impl Displacement {
 }
 
 impl Trajectory {
-    /// By how many parameters it has derivatives.
+    /// Number of parameters with derivatives.
     pub fn parameters(&self) -> usize {
         self.slopes.len()
     }
 
-    /// Derivatives of the state by parameter `k` at an output, in the order of [`State::numbers`]; none of a parameter or an
-    /// output that does not exist.
+    /// Derivatives of the state by parameter `k` at an output, in the order of [`State::numbers`]; none if parameter or
+    /// output does not exist.
     pub fn state_slopes(&self, k: usize, output: usize) -> &[f64] {
         self.slopes.get(k).and_then(|slopes| slopes.get(output)).map_or(&[], |slopes| &slopes.state)
     }
 
-    /// How far the state goes with a unit of parameter `k`, at most: m, rad, and tenths of m/s and rad/s. Infinite where a
-    /// derivative is too large for a number, 0 of a parameter that does not exist.
+    /// Largest change of the state per unit of parameter `k`: m, rad, and tenths of m/s and rad/s. Infinite if a
+    /// derivative overflows, 0 for a parameter that does not exist.
     pub fn reach(&self, k: usize) -> f64 {
         // places, quaternions and hinges come first, then speeds, then work sums, which move nothing
         let (places, moving) = (self.shape.places(), self.shape.moving());

@@ -5,7 +5,7 @@ use occupant_core::results::Unknown;
 use occupant_core::results::recorder::RecorderError;
 use thiserror::Error;
 
-/// Why there is no derivative.
+/// Reason why there is no derivative.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Trouble {
@@ -15,20 +15,20 @@ pub enum Trouble {
     /// A parameter without a value or a size, or one of another model.
     #[error("{0}")]
     Parameter(String),
-    /// No model a little to either side of a parameter's value.
+    /// No valid model close to a parameter's value.
     #[error("the scenario is invalid just above and below the value of `{parameter}`: {reason}")]
     Refused {
         /// The parameter.
         parameter: String,
-        /// What the scenario says of the values beside it.
+        /// The scenario's message for the values nearby.
         reason: String,
     },
-    /// The parameter changes what touches what, not only how strongly.
+    /// The parameter changes which parts are in contact, not only how strongly.
     #[error("`{parameter}` changes the structure of the model, so there is no derivative: {unlike}")]
     Structure {
         /// The parameter.
         parameter: String,
-        /// What differs.
+        /// The difference.
         unlike: Unlike,
     },
     /// The parameter changes the times or steps of the run.
@@ -48,16 +48,16 @@ pub enum Trouble {
         /// Relative distance of two extrapolations.
         doubt: f64,
     },
-    /// The run did not come to its end.
+    /// The run did not complete.
     #[error("the run did not complete: {0}")]
     Run(String),
-    /// The run in dual numbers left the plain run: a defect of this program.
+    /// The run in dual numbers differs from the plain run: a defect of this program.
     #[error("the run in dual numbers differs from the plain run before t = {time_s} s: a defect of this program")]
     Apart {
         /// At this output time, s.
         time_s: f64,
     },
-    /// An output could not be evaluated beside its place.
+    /// A displaced output could not be evaluated.
     #[error("an output cannot be evaluated: {0}")]
     Output(String),
     /// A recorder could not take an output.

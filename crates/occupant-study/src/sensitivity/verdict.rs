@@ -8,60 +8,60 @@
 use super::finite::{Beside, Finite, Neighbours, Seen};
 use super::ladder::Slope;
 
-/// The derivative holds while it is off by no more than this.
+/// Largest relative error with which a derivative holds.
 pub const HOLDS: f64 = 0.02;
-/// A change of a figure below this part of its value is no influence.
+/// Relative change of a figure below which a parameter has no influence.
 const NO_INFLUENCE: f64 = 1e-9;
-/// A secant is compared with at least this part of the figure over the parameter's size.
+/// Least scale for comparing secants: this fraction of the figure over the parameter's size.
 const LEAST: f64 = 1e-6;
-/// A peak that comes at a time so far from another is another peak, s.
+/// Time difference above which a peak is a different peak, s.
 const OTHER_PEAK_S: f64 = 1e-3;
 
-/// How far a derivative can be relied upon.
+/// Reliability of a derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// The slopes to both sides are the derivative's within a part `off`, and those of straight lines within [`HOLDS`] for
-    /// changes of the parameter up to a part `up_to` of its size; beyond, or at once where that is 0, the figure is curved.
+    /// The slopes on both sides agree with the derivative within `off`, and those of straight lines within [`HOLDS`]
+    /// for changes up to `up_to` of the parameter's size; beyond that, or at once if it is 0, the figure is curved.
     Holds {
-        /// Largest distance of a slope from the derivative, as a part of the derivative.
+        /// Largest relative difference of a slope from the derivative.
         off: f64,
-        /// Largest change looked at that is straight.
+        /// Largest change over which the figure is linear.
         up_to: f64,
     },
     /// The figure does not change.
     NoInfluence,
-    /// Secants have other slopes.
+    /// Secants differ from the derivative.
     DoesNotHold {
-        /// Distance of a secant from the derivative, as a part of the derivative; infinite without one.
+        /// Relative difference of a secant from the derivative; infinite without a derivative.
         off: f64,
         /// The change.
         at: f64,
-        /// Why, as far as that can be told.
+        /// The reason, if known.
         why: Why,
     },
-    /// No run beside this one has the figure.
+    /// No neighbouring run has the figure.
     Unchecked,
 }
 
-/// Why a derivative does not hold.
+/// Reason why a derivative does not hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// A run beside this one is not completed, or has no such figure.
+    /// A neighbouring run did not complete, or lacks the figure.
     NoRun,
-    /// Spheres touch other surfaces, or in another order.
+    /// Contacts of other surfaces, or in another order.
     OtherTouches,
     /// The figure is reached at another time.
     OtherPeak,
-    /// Each side has a slope of its own.
+    /// The two sides have different slopes (a kink).
     Corner,
-    /// All secants have one slope, and the derivative another.
+    /// All secants agree, but not with the derivative.
     OtherSlope,
-    /// The secants have no slope.
+    /// The secants disagree with each other.
     Irregular,
 }
 
 impl Why {
-    /// In a word or two.
+    /// Short name.
     pub fn name(self) -> &'static str {
         match self {
             Why::NoRun => "no run",
@@ -73,7 +73,7 @@ impl Why {
         }
     }
 
-    /// In words.
+    /// Description in words.
     pub fn words(self) -> &'static str {
         match self {
             Why::NoRun => "a comparison run did not complete or lacks this measure",
@@ -90,29 +90,29 @@ impl Why {
     }
 }
 
-/// A derivative beside the secants of finite changes.
+/// A derivative compared with secants of finite changes.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// By change, in the order of the changes: slopes of the secants below and above; not a number without a run.
+    /// By change: slopes of the secants below and above; NaN without a run.
     pub secants: Vec<[f64; 2]>,
-    /// By change: the largest distance of a secant from the derivative, as a part of the derivative.
+    /// By change: largest relative difference of a secant from the derivative.
     pub off: Vec<f64>,
-    /// What follows.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
-/// Secants of one change.
+/// Secants of one change, below and above.
 struct Pair {
     part: f64,
-    /// Of the sides that the scenario allows, below and above.
+    /// Slopes on the sides that the scenario allows.
     slopes: Vec<f64>,
-    /// Whether one of these has no figure.
+    /// Whether a figure is missing on one of them.
     lacks: bool,
-    /// Distance of the worst from the derivative, as a part of it.
+    /// Largest relative difference from the derivative.
     off: f64,
 }
 
-/// Compares the derivative of figure `i` with the finite changes of parameter `k`, whose size this is.
+/// Compares the derivative of figure `i` with the finite changes of parameter `k` of this size.
 pub fn compare(slope: &Slope, size: f64, neighbours: &Neighbours, k: usize, i: usize) -> Comparison {
     let finite = &neighbours.finite[k];
     let value = neighbours.here.figure(i).unwrap_or(f64::NAN);
@@ -140,7 +140,7 @@ pub fn compare(slope: &Slope, size: f64, neighbours: &Neighbours, k: usize, i: u
     Comparison { secants, off: pairs.iter().map(|p| p.off).collect(), verdict }
 }
 
-/// How far slopes are from the derivative.
+/// Differences of slopes from the derivative.
 struct Distance {
     slope: f64,
     least: f64,
@@ -152,13 +152,13 @@ impl Distance {
     }
 }
 
-/// What secants tell of the slopes here.
+/// Slopes found from secants.
 struct Found {
-    /// By change: distance of the mean of both sides, curvature taken off, from the derivative.
+    /// By change: difference of the mean of both sides, corrected for curvature, from the derivative.
     means: Vec<f64>,
-    /// How far the two sides are apart at a change of nothing.
+    /// Difference of the two sides, extrapolated to zero change.
     apart: f64,
-    /// Largest distance of two means.
+    /// Largest difference of two means.
     spread: f64,
 }
 
@@ -180,7 +180,7 @@ impl Found {
     }
 }
 
-/// Whether it holds; `why` not, where a pair fails.
+/// The verdict; `why` gives the reason if a pair fails.
 fn verdict(pairs: &[Pair], off: &Distance, why: impl Fn(usize, Option<&Found>) -> Why) -> Verdict {
     let even = pairs.iter().all(|p| p.slopes.len() == pairs[0].slopes.len() && !p.slopes.is_empty());
     if let Some(at) = pairs.iter().position(|p| p.lacks || !even) {
@@ -197,7 +197,7 @@ fn verdict(pairs: &[Pair], off: &Distance, why: impl Fn(usize, Option<&Found>) -
     Verdict::DoesNotHold { off: worst, at: pairs[at].part, why: why(at, Some(&found)) }
 }
 
-/// Why the derivative fails at a change.
+/// The reason why the derivative fails at a change.
 fn why(all: &Neighbours, at: &Finite, pairs: &[Pair], found: Option<&Found>, i: usize) -> Why {
     let (Some(here), Some(found)) = (all.here.seen(), found) else { return Why::NoRun };
     let sides = || at.sides.iter().filter_map(Beside::seen);

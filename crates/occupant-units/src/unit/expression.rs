@@ -10,29 +10,29 @@ use super::named::{MAX_EXPONENT, Scale, named, usual_writing};
 /// Deepest nesting of parentheses.
 const MAX_DEPTH: usize = 8;
 
-/// Why a quantity cannot be read, and where in its text (bytes).
+/// Reason why a quantity cannot be parsed, with the position in its text (bytes).
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitError {
     /// First byte of the offending words.
     pub start: usize,
-    /// One past the last.
+    /// One past the last byte.
     pub end: usize,
     /// What was found.
     pub found: String,
     /// What was expected.
     pub expected: String,
-    /// How to mend it.
+    /// How to correct it.
     pub hint: Option<String>,
 }
 
 impl UnitError {
-    /// What was found and expected from byte `start` to byte `end`.
+    /// An error from byte `start` to byte `end`, with what was found and expected.
     pub fn new(start: usize, end: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
         UnitError { start, end, found: found.into(), expected: expected.into(), hint: None }
     }
 }
 
-/// Reads a unit expression; `offset` is where it starts in the text that errors point into.
+/// Parses a unit expression; `offset` is its start in the text of error positions.
 ///
 /// # Errors
 /// Unknown units, misplaced signs, ambiguous quotients.
@@ -92,7 +92,7 @@ impl Token<'_> {
     }
 }
 
-/// Splits a unit expression into words.
+/// Splits a unit expression into tokens.
 fn tokens(text: &str, offset: usize) -> Result<Vec<Token<'_>>, UnitError> {
     let mut tokens = Vec::new();
     let mut rest = text;
@@ -128,7 +128,7 @@ fn is_name(c: char) -> bool {
     c.is_alphabetic() || matches!(c, '°' | '%' | '0')
 }
 
-/// Plain form of a raised character: a digit, or minus.
+/// Plain form of a superscript character: a digit, or minus.
 fn raised(c: char) -> Option<char> {
     let at = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻".chars().position(|r| r == c)?;
     "0123456789-".chars().nth(at)

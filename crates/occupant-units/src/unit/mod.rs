@@ -20,7 +20,7 @@ pub struct Dimension {
     pub mass: i32,
     /// Time.
     pub time: i32,
-    /// Plane angle, kept apart from plain numbers so that `15` and `15 deg` cannot be confused.
+    /// Plane angle, distinct from plain numbers so that `15` and `15 deg` cannot be confused.
     pub angle: i32,
     /// Temperature.
     pub temperature: i32,
@@ -29,7 +29,7 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    /// That of plain numbers.
+    /// Dimension of plain numbers.
     pub const NONE: Dimension = Dimension::new(0, 0, 0, 0);
 
     /// A dimension from its exponents, without temperature and amount of substance.
@@ -51,18 +51,18 @@ impl Dimension {
         Dimension::new(e[0], e[1], e[2], e[3]).with_heat(e[4], e[5])
     }
 
-    /// f of every exponent.
+    /// The dimension with f applied to every exponent.
     pub(crate) fn map(self, f: impl Fn(i32) -> i32) -> Self {
         Dimension::of(self.exponents().map(f))
     }
 
-    /// That of a product.
+    /// Dimension of a product.
     pub(crate) fn plus(self, other: Dimension) -> Self {
         let (a, b) = (self.exponents(), other.exponents());
         Dimension::of(std::array::from_fn(|i| a[i] + b[i]))
     }
 
-    /// Whether a value of dimension `self` may stand where `wanted` is expected.
+    /// Whether a value of dimension `self` is accepted where `wanted` is expected.
     ///
     /// The radian of "per radian" may be left out, as in `5.73 in·lbf·s` for a rotational damper.
     pub fn serves_as(self, wanted: Dimension) -> bool {
@@ -136,13 +136,13 @@ pub enum Unit {
     NewtonSecondSquaredPerMetreSquared,
 }
 
-/// What there is to say of a [`Unit`].
+/// Properties of a [`Unit`].
 struct Row {
-    /// What it measures.
+    /// Quantity.
     quantity: &'static str,
-    /// For people: `m/s²`.
+    /// Symbol for display: `m/s²`.
     symbol: &'static str,
-    /// As [`parse`] reads it: `m/s^2`; empty for plain numbers.
+    /// Expression for [`parse`]: `m/s^2`; empty for plain numbers.
     si: &'static str,
     /// The same quantity in inch, pound-force, second.
     inch_pound: &'static str,
@@ -235,22 +235,22 @@ pub(crate) const ALL: [Unit; 30] = [
 ];
 
 impl Unit {
-    /// What it measures, as text.
+    /// Its quantity, as text.
     pub const fn quantity(self) -> &'static str {
         TABLE[self as usize].quantity
     }
 
-    /// Its symbol for people: `m/s²`.
+    /// Its symbol for display: `m/s²`.
     pub const fn symbol(self) -> &'static str {
         TABLE[self as usize].symbol
     }
 
-    /// It as [`parse`] reads it: `m/s^2`; empty for plain numbers.
+    /// Its expression for [`parse`]: `m/s^2`; empty for plain numbers.
     pub const fn expression(self) -> &'static str {
         TABLE[self as usize].si
     }
 
-    /// The unit of the same quantity in inch, pound-force, second, as [`parse`] reads it: `in/s^2`.
+    /// The inch-pound-second unit of the same quantity, as expression for [`parse`]: `in/s^2`.
     pub const fn inch_pound(self) -> &'static str {
         TABLE[self as usize].inch_pound
     }

@@ -15,7 +15,7 @@ pub struct NamedUnit {
     pub names: &'static [&'static str],
     /// What it measures.
     pub dimension: Dimension,
-    /// SI units in one of it.
+    /// SI value of one unit.
     pub factor: f64,
 }
 
@@ -84,16 +84,16 @@ pub const UNITS: &[NamedUnit] = &[
     NamedUnit { names: &["kmol"], dimension: MOLE, factor: 1000.0 },
 ];
 
-/// What a unit expression amounts to.
+/// Value of a unit expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
     /// Dimension.
     pub dimension: Dimension,
-    /// SI units in one of it.
+    /// SI value of one unit.
     pub factor: f64,
 }
 
-/// Largest power of a base dimension that makes sense.
+/// Largest plausible power of a base dimension.
 pub(super) const MAX_EXPONENT: i32 = 9;
 
 /// The unit with this name.
@@ -110,20 +110,20 @@ pub(super) fn named(name: &str, start: usize, end: usize) -> Result<Scale, UnitE
     })
 }
 
-/// The usual writing of a unit's name that stands in other letters, `MPH` or `Deg`; none of what is none.
+/// Usual spelling of a unit's name written in other letters, `MPH` or `Deg`; none if it is no unit.
 pub(super) fn usual_writing(name: &str) -> Option<&'static str> {
     let lower = name.to_lowercase();
     UNITS.iter().flat_map(|u| u.names.iter().copied()).find(|own| own.to_lowercase() == lower)
 }
 
 impl Scale {
-    /// The power, unless it is beyond sense.
+    /// The power; none if its exponents are implausible.
     pub(super) fn power(self, n: i32) -> Option<Scale> {
         let raised = Scale { dimension: self.dimension.map(|exponent| exponent * n), factor: self.factor.powi(n) };
         raised.is_sensible().then_some(raised)
     }
 
-    /// The product, unless its powers are beyond sense.
+    /// The product; none if its exponents are implausible.
     pub(super) fn times(self, other: Scale) -> Option<Scale> {
         let product = Scale { dimension: self.dimension.plus(other.dimension), factor: self.factor * other.factor };
         product.is_sensible().then_some(product)

@@ -2,16 +2,16 @@
 
 use super::{ALL, Unit, parse};
 
-/// A unit of the table, or an expression of such units, that values are shown in.
+/// A unit of the table, or an expression of such units, for displaying values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shown {
     expression: &'static str,
-    /// SI units in one of it.
+    /// SI value of one unit.
     pub si: f64,
 }
 
 impl Unit {
-    /// To show its values in the unit that `expression` names; in itself where that is no unit of the same quantity.
+    /// Display in the unit of `expression`; in itself if that is no unit of the same quantity.
     pub fn shown_in(self, expression: &'static str) -> Shown {
         match parse(expression, 0) {
             Ok(scale) if scale.dimension == self.dimension() => Shown { expression, si: scale.factor },
@@ -19,18 +19,18 @@ impl Unit {
         }
     }
 
-    /// To show its values as they are.
+    /// Display in SI.
     pub fn shown(self) -> Shown {
         Shown { expression: self.expression(), si: 1.0 }
     }
 
-    /// To show its values in inch, pound-force, second.
+    /// Display in inch, pound-force, second.
     pub fn shown_in_inch_pound(self) -> Shown {
         self.shown_in(self.inch_pound())
     }
 
-    /// To show its values as people say them: accelerations in g, times in ms, angles in degrees; lengths in mm, or in inches with
-    /// speeds in mph, masses in pounds and forces in pounds of force.
+    /// Display in everyday units: accelerations in g, times in ms, angles in degrees; lengths in mm, or in inches with
+    /// speeds in mph, masses in pounds and forces in pounds-force.
     pub fn shown_to_people(self, inch_pound: bool) -> Shown {
         self.shown_in(match (self, inch_pound) {
             (Unit::MetrePerSecondSquared, _) => "g",
@@ -45,8 +45,8 @@ impl Unit {
         })
     }
 
-    /// The unit of the table for what `expression` measures, and how many of that unit are one of the expression: of `mm` metres
-    /// and 0.001. None for what is no unit, and for plain numbers.
+    /// The unit of the table with the dimension of `expression`, and the factor to it: for `mm` metres and 0.001. None
+    /// for invalid units and plain numbers.
     pub fn measuring(expression: &str) -> Option<(Unit, f64)> {
         let scale = parse(&expression.replace('²', "^2"), 0).ok()?;
         let unit = ALL.into_iter().find(|unit| unit.dimension() == scale.dimension)?;
@@ -55,17 +55,17 @@ impl Unit {
 }
 
 impl Shown {
-    /// Its symbol for people, `in/s²`; empty for plain numbers.
+    /// Its symbol for display, `in/s²`; empty for plain numbers.
     pub fn symbol(self) -> String {
         self.expression.replace("deg", "°").replace("^2", "²").replace("^3", "³")
     }
 
-    /// It in ASCII, as unit expressions of scenarios and tables may have it: `in*lbf`, `m/s^2`; `1` for plain numbers.
+    /// Its ASCII form, valid in scenarios and tables: `in*lbf`, `m/s^2`; `1` for plain numbers.
     pub fn ascii(self) -> String {
         if self.expression.is_empty() { "1".to_owned() } else { self.expression.replace('·', "*") }
     }
 
-    /// How many of it are one SI unit.
+    /// Number of these units per SI unit.
     pub fn per_si(self) -> f64 {
         1.0 / self.si
     }

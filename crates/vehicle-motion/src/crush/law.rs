@@ -2,24 +2,24 @@
 
 use crate::body::{Reading, Stiffness};
 
-/// A face: force per width p over crush x, straight between knots.
+/// A face: force per width p over crush x, piecewise linear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
-    /// Crush, m, and force per width, N/m; from (0, 0), both rising; the last slope continues.
+    /// Crush, m, and force per width, N/m; from (0, 0), both increasing; the last slope continues.
     knots: Vec<[f64; 2]>,
-    /// Shares of energy that come back, below the toe and above.
+    /// Shares of energy returned, below the toe and above.
     returned: [f64; 2],
-    /// Crush over that of residual reading.
+    /// Ratio of crush to that of the residual interpretation.
     stretch: f64,
-    /// Crush that leaves no damage, residual reading, m.
+    /// Crush without residual damage, residual interpretation, m.
     elastic_m: f64,
 }
 
-/// Knots end here; the last slope continues.
+/// Crush at which the knots end; the last slope continues.
 const FAR_M: f64 = 10.0;
 
 impl Law {
-    /// p = B x/s² with s the stretch of the reading: at the crush that residual reading gives, the same energy.
+    /// Law p = B x/s², with s the stretch of the interpretation: the same energy at corresponding crush.
     pub fn of(stiffness: Stiffness, reading: Reading, returned: [f64; 2]) -> Self {
         let stretch = reading.stretch();
         let slope = stiffness.b_n_per_m2 / (stretch * stretch);
@@ -40,7 +40,7 @@ impl Law {
         from[0] + (to[0] - from[0]) * (force_n_per_m - from[1]) / (to[1] - from[1])
     }
 
-    /// Energy per width that a residual crush tells of, J/m: AC + ½BC² + A²/2B, whatever the reading.
+    /// Energy per width for a residual crush, J/m: AC + ½BC² + A²/2B, for any interpretation.
     pub fn damage_j_per_m(&self, residual_m: f64) -> f64 {
         let depth_m = residual_m + self.elastic_m;
         let slope = self.knots[1][1] * self.stretch / self.elastic_m;
@@ -68,11 +68,11 @@ struct Knot {
     force: f64,
     /// Depth of the first face, m.
     first_m: f64,
-    /// Energy per width up to here, J/m.
+    /// Energy per width absorbed so far, J/m.
     energy: f64,
 }
 
-/// Force per width of a pair at a depth, and the share of the depth's growth that the first face takes.
+/// Force per width of a pair at a depth, and the first face's share of the depth rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressure {
     /// N/m.
@@ -84,7 +84,7 @@ pub struct Pressure {
 }
 
 impl Series {
-    /// Of two faces; of one against a rigid partner.
+    /// Two faces in series; one against a rigid partner.
     pub fn of(first: &Law, second: Option<&Law>) -> Self {
         let both = [Some(first), second];
         let mut forces: Vec<f64> =
@@ -118,14 +118,14 @@ impl Series {
         from.depth_m + (to.depth_m - from.depth_m) * (force - from.force) / (to.force - from.force)
     }
 
-    /// Energy per width taken up at a depth, J/m.
+    /// Energy per width absorbed at a depth, J/m.
     pub fn energy(&self, depth_m: f64) -> f64 {
         let [from, _] = self.piece(|knot| knot.depth_m < depth_m);
         from.energy + 0.5 * (from.force + self.load(depth_m)) * (depth_m - from.depth_m)
     }
 
-    /// Force per width at a depth where `most` N/m acted before. Unloading is straight, so that the returned shares of the
-    /// energy below the first knot and above come back.
+    /// Force per width at a depth after a maximum of `most` N/m. Unloading is linear and returns the given shares of
+    /// the energy below the first knot and above.
     pub fn pressure(&self, depth_m: f64, most: f64) -> Pressure {
         let loading = self.load(depth_m);
         if loading >= most {

@@ -9,7 +9,7 @@ use crate::crush::law::Law;
 pub(crate) struct Edge {
     pub corner_m: [f64; 2],
     pub normal: [f64; 2],
-    /// Which face it belongs to.
+    /// Its face.
     pub face: usize,
 }
 
@@ -27,7 +27,7 @@ impl Edge {
     }
 }
 
-/// A face: one or more edges that push along one normal.
+/// A face: one or more edges that push along a common normal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Face {
     pub normal: [f64; 2],
@@ -43,7 +43,7 @@ pub(crate) struct Outline {
     pub faces: Vec<Face>,
     /// Range of z (down), m.
     pub band_m: [f64; 2],
-    /// Radius about the body's origin that holds it in plan, m; infinite for a half space.
+    /// Radius about the body's origin that contains it in plan, m; infinite for a half space.
     pub reach_m: f64,
 }
 
@@ -53,7 +53,7 @@ pub(crate) struct Node {
     pub place_m: V3,
     /// Outward normal.
     pub normal: V3,
-    /// Width that it stands for times its share of the stiffness, m.
+    /// Tributary width times its share of the stiffness, m.
     pub width_m: f64,
     pub law: usize,
     pub face: usize,
@@ -76,7 +76,8 @@ impl Outline {
         self.edges.iter().filter(|edge| edge.face == face).map(of).fold(f64::INFINITY, f64::min)
     }
 
-    /// The face through which a way from one point to another inside entered; if it began inside, that of the least depth.
+    /// The face through which a node moving from one point to another entered; if it started inside, the face of least
+    /// depth.
     pub fn entered(&self, from: &V3, to: &V3) -> usize {
         let (start, end) = ([from.x, from.y], [to.x, to.y]);
         let late = |edge: &Edge| {
@@ -91,7 +92,7 @@ impl Outline {
         crossed.map_or_else(shallow, |(_, face)| face)
     }
 
-    /// How far a point is outside in plan, m; negative inside.
+    /// Distance of a point outside in plan, m; negative inside.
     pub fn gap_m(&self, point: &V3) -> f64 {
         self.edges.iter().map(|edge| edge.over_m([point.x, point.y])).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -128,8 +129,8 @@ impl Outline {
         }
     }
 
-    /// The faces that an edge pushes with, and their normals. A cut corner stands for the end by its width across and for the
-    /// side by its length along, so a push on the corner from any direction finds its width.
+    /// The faces and normals along which an edge pushes. A cut corner counts for the end by its width across and for
+    /// the side by its length along, so that a push from any direction finds its full width.
     fn pushed(&self, edge: &Edge) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         let edge = *edge;
         let across = move |face: &Face| face.normal[0] * edge.normal[0] + face.normal[1] * edge.normal[1];

@@ -10,15 +10,16 @@ use crate::crush::outline::{Node, Outline};
 use core::ops::Range;
 use nalgebra::Matrix3;
 
-/// A node of a narrow body marks the nodes of the other within this way along its face, and within this height: sides have other rows than ends, m.
+/// Distance along the face, and height, within which a node of a narrow body marks nodes of the other, m; sides have
+/// other rows than ends.
 const NEXT_M: f64 = 0.05;
 const LEVEL_M: f64 = 0.155;
-/// A node that faces what it meets by less than this is not damaged by it: those of a side that a wall ahead has passed.
+/// Least cosine between a node's normal and the contact for damage: excludes nodes of a side that passes a wall.
 pub(crate) const SQUARE: f64 = 0.2;
-/// Speed over which friction turns, m/s.
+/// Regularisation speed of friction, m/s.
 const TURNS_M_S: f64 = 0.127;
 
-/// Where a body is and how it moves, vehicle-space.
+/// Pose and motion of a body, vehicle-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {
     pub at_m: V3,
@@ -39,14 +40,14 @@ impl Pose {
     }
 }
 
-/// What acts on a body: force and moment about its origin, vehicle-space, and powers.
+/// Load on a body: force and moment about its origin, vehicle-space, and powers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Push {
     pub force_n: V3,
     pub moment_n_m: V3,
-    /// Taken up by its structure.
+    /// Power absorbed by its structure, W.
     pub crushing_w: f64,
-    /// Lost in sliding along a partner.
+    /// Power dissipated in sliding along a partner, W.
     pub rubbing_w: f64,
 }
 
@@ -109,16 +110,16 @@ pub(crate) struct Pass {
     /// By law of the node, then law of the face; `columns` laws of faces.
     pub series: Vec<Series>,
     pub columns: usize,
-    /// Shares of both bodies in what friction takes.
+    /// Shares of both bodies in friction losses.
     pub rubbing: [f64; 2],
-    /// Whether the outline's body is the one that crushes: a pole's nodes in a car.
+    /// Whether the outline's body is the deformable one, as for a pole's nodes in a car.
     pub outline_crushes: bool,
 }
 
-/// No face: the node never came in.
+/// No face: the node has not entered.
 pub(crate) const NO_FACE: u8 = u8::MAX;
 
-/// The nodes' memory: the face through which each came in, and its largest force per width, N/m.
+/// Stored state of the nodes: the face through which each entered, and its largest force per width, N/m.
 pub(crate) struct Marks<'a> {
     pub faces: &'a [u8],
     pub most: &'a [f64],
@@ -130,7 +131,7 @@ struct Met {
     face: usize,
     normal: V3,
     depth_m: f64,
-    /// How squarely it meets the face.
+    /// Cosine of the angle to the face.
     facing: f64,
 }
 
@@ -152,7 +153,7 @@ impl View {
 }
 
 impl Pass {
-    /// Whether the bodies are too far apart to meet, with `spare_m` to go.
+    /// Whether the bodies are too far apart to touch, by more than `spare_m`.
     pub fn is_apart(&self, shapes: &[Shape], poses: &[Pose], spare_m: f64) -> bool {
         let [a, b] = [self.nodes_of, self.outline_of];
         let reach_m = shapes[a].outline.reach_m + shapes[b].outline.reach_m + spare_m;
@@ -239,7 +240,7 @@ impl Pass {
         }
     }
 
-    /// The node of the least way to the outline in plan: way, m, negative inside, and place in vehicle-space.
+    /// The node nearest to the outline in plan: distance, m, negative inside, and position in vehicle-space.
     pub fn nearest(&self, shapes: &[Shape], poses: &[Pose]) -> Option<(f64, V3)> {
         let [a, b] = [self.nodes_of, self.outline_of];
         let (outline, now) = (&shapes[b].outline, View::of(&poses[a], &poses[b]));
@@ -262,7 +263,7 @@ impl Pass {
         self.nearest(shapes, poses).map_or(f64::INFINITY, |(gap_m, _)| gap_m)
     }
 
-    /// Marks what the nodes of a narrow body pressed in on the nodes of the outline's body next to them.
+    /// Transfers the dents made by nodes of a narrow body to neighbouring nodes of the outline's body.
     pub fn mark(&self, marks: &Marks, on: &mut [f64], shapes: &[Shape], poses: &[Pose]) {
         let [a, b] = [self.nodes_of, self.outline_of];
         let (outline, now) = (&shapes[b].outline, View::of(&poses[a], &poses[b]));

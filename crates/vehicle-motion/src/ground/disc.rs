@@ -5,7 +5,7 @@
 
 use libm::{acos, asin};
 
-/// What a piece of polyline adds to the overlap.
+/// Contribution of a segment of the polyline to the overlap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Overlap {
     /// Area, m².
@@ -27,7 +27,7 @@ impl Overlap {
     }
 }
 
-/// What the piece of ground from one point (x, z) to another, which lies ahead, adds to the overlap with a disc, m.
+/// Contribution of the ground from one point (x, z) to another further ahead to the overlap with a disc, m.
 pub(super) fn overlap(radius_m: f64, from_m: [f64; 2], to_m: [f64; 2]) -> Overlap {
     let (x0, x1) = (from_m[0].max(-radius_m), to_m[0].min(radius_m));
     if x1 <= x0 {
@@ -81,7 +81,7 @@ fn arc_area(radius_m: f64, x_m: f64) -> f64 {
     0.5 * (x_m * half_chord(radius_m, x_m) + radius_m * radius_m * asin((x_m / radius_m).clamp(-1.0, 1.0)))
 }
 
-/// Depth to which level ground would have to reach for this overlap, m; at most 1.9 radii.
+/// Depth of level ground with this overlap, m; at most 1.9 radii.
 pub(super) fn level_depth(radius_m: f64, area_m2: f64) -> f64 {
     let most_m = 1.9 * radius_m;
     // A ≈ (4/3)√(2r) Δ^{3/2} for shallow depths

@@ -9,13 +9,13 @@ use super::Ground;
 use super::disc::{Overlap, level_depth, overlap};
 use crate::V3;
 
-/// A wheel that leans more than this (sine of its angle to the ground's normal) lies on its side and has no footprint.
+/// Lean (sine of the angle to the ground's normal) above which a wheel lies on its side and has no footprint.
 const LYING: f64 = 0.94;
-/// Range of the lean over which the footprint fades before.
+/// Range of lean over which the footprint fades out.
 const FADES: f64 = 0.06;
-/// Share of the crown by which a wheel sees planes that it does not touch yet.
+/// Distance, relative to the crown radius, at which a wheel considers planes before touching them.
 const SEEN: f64 = 0.1;
-/// Steepest plane against the wheel's upward direction that is cut as it is.
+/// Largest slope relative to the wheel's upward direction that is cut exactly.
 const STEEPEST: f64 = 1e-3;
 
 /// Contact of a wheel, in vehicle-space.
@@ -23,13 +23,13 @@ const STEEPEST: f64 = 1e-3;
 pub struct Footprint {
     /// Depth of the overlap, m.
     pub depth_m: f64,
-    /// Force over stiffness and depth: 1 on planes.
+    /// Force relative to stiffness times depth: 1 on planes.
     pub share: f64,
     /// Direction of the normal force on the wheel.
     pub normal: V3,
-    /// Where the force acts, m.
+    /// Point of action of the force, m.
     pub point_m: V3,
-    /// Moment besides, over stiffness and depth: 0 on planes.
+    /// Additional moment, relative to stiffness times depth: 0 on planes.
     pub couple_m: V3,
     /// Sine of the lean, (normal of the ground)·(axle): positive when the top of the wheel leans left.
     pub lean: f64,
@@ -50,7 +50,7 @@ struct Cut {
     /// Area of the pieces less that of steep ones, m², and the lean by it.
     level: f64,
     lean: f64,
-    /// How far the pieces lean to the side: growth of the area per way along the axle, m.
+    /// Lateral lean of the pieces: growth of the area per displacement along the axle, m.
     aside_m: f64,
     /// The plane below the centre, and whether it alone lies within the disc.
     plane: usize,
@@ -107,7 +107,7 @@ struct Met {
     is_one_plane: bool,
 }
 
-/// Ways of the differences that give the gradient of the depth, m and rad.
+/// Displacements of the finite differences for the gradient of the depth, m and rad.
 const WAY: f64 = 1e-7;
 
 impl Tread<'_> {
@@ -137,8 +137,8 @@ impl Tread<'_> {
         Some(Met { depth_m, lean, back, push, is_one_plane })
     }
 
-    /// Where several planes carry the tyre, force and moment are the gradient of ½k_tΔ² over its place and its attitude: what
-    /// it gives and takes is what it stores.
+    /// Where several planes carry the tyre, force and moment are the gradient of ½k_tΔ² over its position and attitude,
+    /// so that the contact is conservative.
     fn over_a_corner(&self, centre_m: V3, axle: V3, met: &Met) -> Option<Footprint> {
         let depth = |centre_m: V3, axle: V3| self.met(centre_m, axle).map_or(0.0, |met| met.depth_m);
         let along = |way: V3| (met.depth_m - depth(centre_m + way * WAY, axle)) / WAY;
@@ -160,7 +160,7 @@ impl Tread<'_> {
     }
 }
 
-/// Share of a footprint that is left as a wheel comes to lie.
+/// Share of a footprint left as a wheel tips over.
 fn standing(lean: f64) -> f64 {
     let left = ((LYING - lean.abs()) / FADES).clamp(0.0, 1.0);
     left * left * (3.0 - 2.0 * left)

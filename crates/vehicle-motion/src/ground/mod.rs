@@ -8,10 +8,11 @@ pub use footprint::Footprint;
 use crate::V3;
 use libm::tan;
 
-/// A cross-section along the X axis, up to a grade: planes that meet at corners.
+/// A cross-section extruded along the X axis, with a grade: planes that meet at corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ground {
-    /// Corners from left to right: distance right of the X axis and height there at X = 0, m. The outer planes go on.
+    /// Corners from left to right: distance right of the X axis and height there at X = 0, m. The outer planes
+    /// continue.
     corners_m: Vec<[f64; 2]>,
     /// Upward normals of the planes between them, vehicle-space.
     normals: Vec<V3>,
@@ -24,13 +25,13 @@ pub struct Ground {
 /// A strip of ground with properties of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// From and to, right of the X axis, m.
     pub right_m: [f64; 2],
     /// Factor on the friction of tyres.
     pub friction: f64,
-    /// Further factor where a tyre slides sideways: soil that furrows.
+    /// Further factor on lateral sliding: soil that furrows.
     pub lateral: f64,
     /// Rolling resistance over load, in place of the tyre's; none keeps the tyre's.
     pub rolling: Option<f64>,
@@ -177,7 +178,7 @@ impl Ground {
         inner.partition_point(|corner| corner[0] <= right_m)
     }
 
-    /// The plane at a distance right of the X axis, if it continues for a way to both sides.
+    /// The plane at a distance right of the X axis, if it extends by a distance to both sides.
     pub(crate) fn lone_plane(&self, right_m: f64, way_m: f64) -> Option<usize> {
         let plane = self.plane_at(right_m);
         let last = self.normals.len() - 1;
@@ -198,7 +199,8 @@ impl Ground {
         from_m[1] + (to_m[1] - from_m[1]) * (right_m - from_m[0]) / (to_m[0] - from_m[0])
     }
 
-    /// Corners of the cross-section from left to right: right of the X axis and height at X = 0, m. The outer planes go on.
+    /// Corners of the cross-section from left to right: right of the X axis and height at X = 0, m. The outer planes
+    /// continue.
     pub fn corners_m(&self) -> &[[f64; 2]] {
         &self.corners_m
     }
@@ -237,8 +239,8 @@ impl Ground {
         })
     }
 
-    /// Distance of a point to the ground, m, negative below it, and the direction away from the ground, vehicle-space. Corners
-    /// that stand out are round to it.
+    /// Distance of a point to the ground, m, negative below it, and the direction away from the ground, vehicle-space.
+    /// Convex corners are rounded.
     pub fn distance(&self, point_m: &V3) -> (f64, V3) {
         let plane = self.plane_at(point_m.y);
         let normal = self.normals[plane];
@@ -267,8 +269,8 @@ impl Ground {
         if least == over_m { (over_m, normal) } else { (least, (V3::y() * away[0] + across * away[1]) / least) }
     }
 
-    /// Calls for each face beside an axle that a sphere is behind, with its number, the depth, m, the normal, and how much it
-    /// counts, from 0 where the normal is at 53° to the axle to 1 at 37°. The upper edge of a face is round to the sphere.
+    /// Calls for each face beside an axle that a sphere penetrates: its number, depth, m, normal, and weight, from 0
+    /// where the normal is at 53° to the axle to 1 at 37°. The upper edge of a face is rounded.
     pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3, mut with: impl FnMut(usize, f64, V3, f64)) {
         let slant = (1.0 + self.grade * self.grade).sqrt();
         let across = V3::new(self.grade / slant, 0.0, 1.0 / slant);

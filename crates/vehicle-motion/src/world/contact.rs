@@ -3,14 +3,14 @@
 use crate::V3;
 use crate::ride::Station;
 
-/// A contact ends this long after its last force, s.
+/// Time without force after which a contact ends, s.
 pub(crate) const ENDS_AFTER_S: f64 = 0.025;
 /// A force below this share of the contact's largest no longer prolongs it: cars that lean on each other.
 pub(crate) const FADES: f64 = 0.01;
 /// A smaller force is no contact, N.
 pub(crate) const LEAST_N: f64 = 1.0;
 
-/// What a vehicle meets.
+/// Partner of a vehicle in a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Partner {
     /// Another vehicle.
@@ -34,23 +34,23 @@ pub struct Contact {
     pub impulse_n_s: V3,
     /// Largest force, N.
     pub peak_n: f64,
-    /// What it did to the vehicle, and to its partner if that is a vehicle.
+    /// Effect on the vehicle, and on its partner if that is a vehicle.
     pub struck: [Option<Struck>; 2],
 }
 
-/// What a contact did to a vehicle.
+/// Effect of a contact on a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Struck {
-    /// Largest change of velocity of the centre of gravity within the contact, in the vehicle's axes at first contact, m/s.
-    /// Tyres and gravity have their share in it.
+    /// Largest velocity change of the centre of gravity during the contact, in the vehicle's axes at first contact,
+    /// m/s. It includes tyres and gravity.
     pub delta_v_m_s: V3,
-    /// Change of velocity by the contact's impulse alone, same axes, m/s.
+    /// Velocity change by the contact impulse alone, same axes, m/s.
     pub by_contact_m_s: V3,
-    /// Principal direction of force: where the impulse comes from, clockwise from ahead, rad, 0 to 2π.
+    /// Principal direction of force, clockwise from the front, rad, 0 to 2π.
     pub pdof_rad: f64,
-    /// The same as the hour of a clock, 1 to 12.
+    /// Clock direction of the force, 1 to 12.
     pub clock: u8,
-    /// Speed of a barrier that absorbs as much: √(2E/M), m/s.
+    /// Energy-equivalent speed √(2E/M), m/s.
     pub ees_m_s: f64,
     /// Velocity at the end of the contact, vehicle-space, m/s.
     pub leaves_m_s: V3,

@@ -9,34 +9,34 @@ use crate::crush::outline::{Face, Node, Outline, SIDES};
 /// Damage of a vehicle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Damage {
-    /// Deepest crush while it lasted, m.
+    /// Deepest dynamic crush, m.
     pub dynamic_m: f64,
-    /// Deepest crush that stayed, m.
+    /// Deepest residual crush, m.
     pub residual_m: f64,
     /// Deepest crush of the roof by the ground, m.
     pub roof_m: f64,
-    /// Places that were pressed in.
+    /// Dents of the outline.
     pub dents: Vec<Dent>,
     /// Damaged sides.
     pub profiles: Vec<Profile>,
-    /// Speed of a barrier that absorbs as much as its structure did: √(2E/M), m/s.
+    /// Energy-equivalent speed √(2E/M), m/s.
     pub ees_m_s: f64,
 }
 
-/// A place of the outline that was pressed in.
+/// A dent of the outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dent {
     /// Of which side.
     pub side: Side,
-    /// Place before the crush, and outward normal, body axes, m.
+    /// Initial position, and outward normal, body axes, m.
     pub place_m: V3,
     /// Normal.
     pub normal: V3,
-    /// Largest crush while it lasted, m.
+    /// Largest dynamic crush, m.
     pub depth_m: f64,
 }
 
-/// Thickness of what lies between the outline and the compartment and does not crush away, m: a door, an engine. Guesses.
+/// Thickness between outline and compartment that does not crush, m: a door, an engine. Guesses.
 const DOOR_M: f64 = 0.2;
 const ENGINE_M: f64 = 0.4;
 
@@ -45,13 +45,13 @@ const ENGINE_M: f64 = 0.4;
 pub struct Profile {
     /// Which.
     pub side: Side,
-    /// From and to along it, m: ahead of the centre of gravity on the left and right, to the right in front and rear.
+    /// Range along it, m: forward of the centre of gravity on the left and right, to the right in front and rear.
     pub span_m: [f64; 2],
     /// C₁ to C₆: residual crush at equal distances over the span, m.
     pub depths_m: [f64; 6],
     /// Mean residual crush over the span, m.
     pub mean_m: f64,
-    /// ∫ (A C + ½B C² + A²/2B) over the span, J, with the profile as it stands.
+    /// ∫ (A C + ½B C² + A²/2B) over the span for this profile, J.
     pub energy_j: f64,
 }
 
@@ -85,13 +85,13 @@ impl Damage {
 }
 
 impl Damage {
-    /// Largest crush of the front while it lasted, m.
+    /// Largest dynamic crush of the front, m.
     pub fn front_m(&self) -> f64 {
         self.dents.iter().filter(|dent| dent.side == Side::Front).map(|dent| dent.depth_m).fold(0.0, f64::max)
     }
 
-    /// How deep the crush, with what lies behind the sheet, reaches into a sphere at a place of the compartment, body axes, m;
-    /// negative if it stays away. None above, below and beside all that was pressed in.
+    /// Intrusion into a sphere at a position in the compartment, body axes, m, including the structure behind the
+    /// sheet; negative if clear. None outside the range of all dents.
     pub fn reaches_m(&self, place_m: &V3, radius_m: f64, car: &Car) -> Option<f64> {
         let up_m = car.height_m - place_m.z;
         let [low_m, high_m] = car.body.band_m;
@@ -116,8 +116,8 @@ impl Dent {
     }
 }
 
-/// Whether what a node was pressed in is damage of its face: a cut corner also pushes for the side, by its length along, but what a head-on
-/// wall pressed in there is damage of the end.
+/// Whether a node's dent is damage of its face: a cut corner also pushes for the side, but what a frontal wall dents
+/// there is damage of the end.
 fn is_of_its_side(node: &Node, outline: &Outline) -> bool {
     let Face { normal: [x, y], .. } = outline.faces[node.face];
     let over_m = |place: &[f64]| place[0] * x + place[1] * y;

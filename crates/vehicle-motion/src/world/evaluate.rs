@@ -13,7 +13,7 @@ use crate::world::setup::{Memories, Pair, Rails, Setup};
 /// Gap of a pair within which steps are short, m.
 pub(crate) const NEAR_M: f64 = 0.5;
 
-/// What one evaluation found.
+/// Results of one evaluation.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Findings {
     pub reports: Vec<Report>,
@@ -21,7 +21,7 @@ pub(crate) struct Findings {
     pub poses: Vec<Pose>,
     /// Forces on the masses of rails, N; by the place of each in the numbers that move.
     pub loads: Vec<f64>,
-    /// What the ground does to each hull.
+    /// Ground contact of each hull.
     pub rubs: Vec<Rub>,
     /// Force on the car of each pair, vehicle-space, and the sum of the forces' sizes, N.
     pub forces: Vec<(V3, f64)>,
@@ -38,7 +38,7 @@ impl Setup<'_> {
         !pass.is_apart(&self.shapes, poses, ahead_m)
     }
 
-    /// Bound of the speed at which a pair closes, m/s.
+    /// Upper bound of a pair's closing speed, m/s.
     pub(crate) fn closing_m_s(&self, pair: &Pair, poses: &[Pose]) -> f64 {
         let turns = |body: usize| {
             let reach_m = self.shapes[body].outline.reach_m;
@@ -47,7 +47,7 @@ impl Setup<'_> {
         (poses[pair.car].velocity_m_s - poses[pair.body].velocity_m_s).norm() + turns(pair.car) + turns(pair.body)
     }
 
-    /// Numbers that move besides the vehicles: way and speed of each barrier, then of the masses of rails.
+    /// Number of state variables besides the vehicles: travel and speed of each barrier, then of the rail masses.
     pub(crate) fn more(&self) -> usize {
         self.rails.last().map_or(2 * self.solids.len(), |rail| rail.at.end)
     }
@@ -78,7 +78,7 @@ impl Setup<'_> {
         }
     }
 
-    /// Rates of all that moves.
+    /// Rates of the whole state.
     pub(crate) fn evaluate(
         &self,
         time_s: f64,
@@ -196,7 +196,7 @@ impl Setup<'_> {
         }
     }
 
-    /// Kinetic energy of what slides, and what it took up, J.
+    /// Kinetic energy of the sliders, and their absorbed energy, J.
     pub(crate) fn slides_j(&self, stack: &Stack, memories: &Memories) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (i, solid) in self.solids.iter().enumerate() {

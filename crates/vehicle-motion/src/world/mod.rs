@@ -20,7 +20,7 @@ use crate::integrate::Tolerance;
 use crate::ride::{Ride, Start};
 use crate::state::State;
 
-/// Vehicles and what they meet.
+/// Vehicles and their surroundings.
 #[derive(Clone, Debug)]
 pub struct World {
     /// Vehicles.
@@ -33,7 +33,7 @@ pub struct World {
     pub impulses: Vec<Impact>,
     /// Friction between vehicles.
     pub friction: f64,
-    /// What the error of a step is measured against.
+    /// Error tolerances.
     pub tolerance: Tolerance,
 }
 
@@ -57,9 +57,9 @@ pub struct Entry {
     pub car: Car,
     /// Who drives it.
     pub driver: Driver,
-    /// How it starts.
+    /// Its start.
     pub begin: Begin,
-    /// What people exert on it.
+    /// Load from its occupants.
     pub push: Option<Wrench>,
 }
 
@@ -70,7 +70,7 @@ impl Entry {
     }
 }
 
-/// How a vehicle starts.
+/// Start of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "one for each vehicle")]
 pub enum Begin {
@@ -80,7 +80,7 @@ pub enum Begin {
     State(State),
 }
 
-/// A force and a moment about a place of the vehicle over time, in its axes.
+/// A force and a moment about a point of the vehicle over time, in its axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrench {
     /// Place from the centre of gravity, body axes, m.
@@ -94,9 +94,9 @@ pub struct Wrench {
 pub struct Impact {
     /// The vehicle that is counted first, and its partner.
     pub between: (usize, Partner),
-    /// When, s; none: when their outlines first contact.
+    /// Time, s; none: at the first contact of their outlines.
     pub time_s: Option<f64>,
-    /// Where, X and Y, m; none: where they first contact.
+    /// Position, X and Y, m; none: the point of first contact.
     pub at_m: Option<[f64; 2]>,
     /// Direction of the line of contact's normal, clockwise from X, rad; either sense.
     pub normal_rad: f64,
@@ -104,11 +104,11 @@ pub struct Impact {
     pub restitution: f64,
     /// Largest ratio of the impulse along the contact to that across it.
     pub friction: f64,
-    /// How long it takes, s; 0: at once.
+    /// Duration, s; 0: instantaneous.
     pub duration_s: f64,
 }
 
-/// What a run of a world leaves.
+/// Results of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The motion of each vehicle.
@@ -117,9 +117,9 @@ pub struct Outcome {
     pub contacts: Vec<Contact>,
     /// Damage of each vehicle.
     pub damage: Vec<Damage>,
-    /// How far each barrier slid; 0 for those that stand.
+    /// Travel of each barrier; 0 for fixed ones.
     pub slides: Vec<Slid>,
-    /// What happened to rails.
+    /// Deformation of rails.
     pub rails: Vec<Bent>,
     /// Evaluations of the rates.
     pub evaluations: u64,
@@ -129,7 +129,7 @@ pub struct Outcome {
     pub balance: f64,
 }
 
-/// How far a barrier slid.
+/// Travel of a barrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slid {
     /// Largest way, m.
@@ -140,7 +140,7 @@ pub struct Slid {
     pub speed_m_s: f64,
 }
 
-/// What happened to a rail.
+/// Deformation of a rail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bent {
     /// Number of the barrier.
@@ -166,7 +166,7 @@ pub struct Bend {
     pub line_m: Vec<[f64; 2]>,
 }
 
-/// Why a world could not be driven.
+/// Reason why a simulation failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
     /// Problems of a vehicle.
@@ -177,7 +177,7 @@ pub enum WorldError {
         /// What.
         what: CarError,
     },
-    /// A start that is no place or speed, or an end that is no time.
+    /// An invalid start or end time.
     #[error("the start of the drive must be finite numbers, and its end a time above 0")]
     Start,
     /// Two vehicles that start within each other.
@@ -198,7 +198,7 @@ pub enum WorldError {
         /// How deep, m.
         depth_m: f64,
     },
-    /// A barrier that is none.
+    /// An invalid barrier.
     #[error("barrier {}: {what}", barrier + 1)]
     Barrier {
         /// Its number.

@@ -18,7 +18,7 @@ impl Impact {
     }
 }
 
-/// An impact under way: an impulse spread over a time as a haversine.
+/// An impact in progress: an impulse spread over time as a haversine.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulse {
     bodies: [usize; 2],
@@ -31,7 +31,7 @@ pub(crate) struct Pulse {
 }
 
 impl Pulse {
-    /// The impulse of an impact that begins now; nothing if the bodies part.
+    /// Impulse of an impact that begins now; none if the bodies separate.
     pub fn of(setup: &Setup, impact: &Impact, time_s: f64, stack: &Stack, poses: &[Pose]) -> Self {
         let (car, partner) = impact.pair();
         let body = match partner {
@@ -87,7 +87,7 @@ impl Pulse {
         Contact { impulse_n_s: self.impulse, peak_n, ..Contact::begin(self.bodies[0], self.partner, self.start_s) }
     }
 
-    /// Changes the velocities at once; the vehicles share the loss.
+    /// Changes the velocities instantly; the vehicles share the energy loss.
     pub fn strike(&self, setup: &Setup, stack: &mut Stack) {
         let mut lost_j = 0.0;
         for (i, car) in self.cars().enumerate() {

@@ -13,17 +13,17 @@ use crate::world::pulse::Pulse;
 use crate::world::setup::{Memories, Pair, Setup};
 use crate::world::{Bend, Outcome, Partner, World, WorldError, Wrench};
 
-/// Shortest step, s: what needs shorter ones has no solution here.
+/// Shortest step, s; smaller ones fail.
 const SHORTEST_S: f64 = 1e-9;
-/// Steps end at most this deep behind a first contact, m.
+/// Largest penetration at the end of a step with a first contact, m.
 const TOUCH_M: f64 = 1e-4;
-/// Way of a step where there are curbs, m.
+/// Travel per step near curbs, m.
 const CURB_M: f64 = 0.02;
 /// Longest step within the gap `NEAR_M`, s, and the way that may take longer for what has met and hardly moves, m.
 const NEAR_S: f64 = 0.002;
 const CREEP_M: f64 = 0.002;
 
-/// How far a pair is.
+/// Distance of a pair.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
     gap_m: f64,
@@ -34,7 +34,7 @@ struct Touch {
     felt_s: f64,
 }
 
-/// A run under way.
+/// A run in progress.
 pub(crate) struct Runner<'a> {
     pub setup: &'a Setup<'a>,
     pub stack: Stack,
@@ -231,7 +231,7 @@ impl<'a> Runner<'a> {
         near_s
     }
 
-    /// If a first contact lies well within a step of `h` s, a step that ends just behind it, s.
+    /// If a first contact is within a step of `h` s, the length of a step that ends just after it, s.
     fn first_touch_s(&self, poses: &[Pose], h: f64) -> Option<f64> {
         let mut earliest = None;
         for (pair, touch) in self.setup.pairs.iter().zip(&self.touches) {
@@ -247,7 +247,7 @@ impl<'a> Runner<'a> {
         earliest.filter(|at_s| *at_s > SHORTEST_S)
     }
 
-    /// Whether a hull went into the ground that was not looked at; it is from now on.
+    /// Whether a hull that was not evaluated touches the ground; it is evaluated from now on.
     fn sinks(&mut self, cars: &[State]) -> bool {
         let mut sinks = false;
         for (i, hull) in self.setup.hulls.iter().enumerate() {
@@ -288,7 +288,7 @@ impl<'a> Runner<'a> {
         jumps
     }
 
-    /// Drivers learn of a first contact; true if there is one.
+    /// Notifies drivers of a first contact; true if there is one.
     fn touch(&mut self) -> bool {
         let mut jumps = false;
         for (pair, touch) in self.setup.pairs.iter().zip(&mut self.touches) {

@@ -12,11 +12,11 @@ use crate::state::State;
 use crate::vehicle::{Memory, Vehicle};
 use crate::world::{Begin, Partner, World, WorldError};
 
-/// Barriers reach from deep below to high above the road.
+/// Vertical range of barriers, m.
 const UPRIGHT_M: [f64; 2] = [-1e3, 1e3];
-/// A block at least this broad is met by the nodes of a car; a narrower one meets the car with its own.
+/// Least breadth of a block that is contacted by the nodes of the car; a narrower one uses its own nodes, m.
 const BROAD_M: f64 = 1.5;
-/// Distance of the nodes of what is narrow, m.
+/// Node spacing of narrow bodies, m.
 const NARROW_M: f64 = 0.02;
 
 /// Two bodies that may touch.
@@ -28,9 +28,9 @@ pub(crate) struct Pair {
     pub body: usize,
     /// Its passes.
     pub passes: core::ops::Range<usize>,
-    /// The rail that it is, and where its state begins.
+    /// The rail, if it is one, and the start of its state.
     pub rail: Option<usize>,
-    /// Whether the touch is felt; impacts by impulse only look when it begins.
+    /// Whether the contact has forces; impacts by impulse only detect its start.
     pub is_felt: bool,
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct Setup<'a> {
     pub shapes: Vec<Shape>,
     pub passes: Vec<Pass>,
     pub pairs: Vec<Pair>,
-    /// Of each barrier: its body, where it stands, how it slides.
+    /// For each barrier: its body, position, and slider.
     pub solids: Vec<Solid>,
     pub hulls: Vec<Hull>,
     pub rails: Vec<Rails>,
@@ -65,11 +65,11 @@ pub(crate) struct Rails {
     pub series: Vec<Vec<Series>>,
 }
 
-/// What is remembered between steps.
+/// State stored between steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Memories {
     pub vehicles: Vec<Memory>,
-    /// By pass and node: the face through which it came in.
+    /// By pass and node: the face through which it entered.
     pub faces: Vec<Vec<u8>>,
     /// By list and node: the largest force per width, N/m.
     pub most: Vec<Vec<f64>>,

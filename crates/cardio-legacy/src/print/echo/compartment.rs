@@ -10,7 +10,7 @@ use occupant_units::unit::Unit::{Metre, MetrePerSecond, NewtonPerMetre, One};
 use crate::print::unit::ratio;
 use crate::print::{Case, Pages, Table, Units};
 
-/// Writes materials, surfaces and, where there are any, solids.
+/// Writes materials, surfaces and, if any, solids.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     materials(case, units).write(pages);
     surfaces(case).write(pages);
@@ -75,7 +75,7 @@ fn spheres(own: Option<&[usize]>) -> String {
     own.map_or_else(all, |list| list.iter().map(|s| (s + 1).to_string()).collect::<Vec<_>>().join(" "))
 }
 
-/// Shapes of the solids; each of their points has a line.
+/// Shapes of the solids, with a line for each point.
 fn solids(case: &Case, units: Units) -> Table {
     let title =
         "SOLIDS ({}): CORNERS, ENDS OR CENTER; DISC: RADIUS X THICKNESS X ROUNDING, RIM: RADIUS X RADIUS OF THE TUBE";
@@ -95,7 +95,7 @@ fn solids(case: &Case, units: Units) -> Table {
     table
 }
 
-/// A shape in words, and the points that it stands on.
+/// A shape as text, and its points.
 fn shape(shape: &Shape, units: Units) -> (String, Vec<Point3<f64>>) {
     let (show, axis) = (|x: f64| units.of(Metre).show(x), |axis: Vector3<f64>| ratio().vector(axis).join(" "));
     match shape {

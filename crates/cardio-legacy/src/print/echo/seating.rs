@@ -88,7 +88,7 @@ fn came_to_rest(pages: &mut Pages, units: Units, settled: &Settled) {
     pages.fact("SETTLED", format!("MOVED {moved} AND TURNED {turned}; {left}"));
 }
 
-/// q and their rates, four to a line, with the six decimals of cards; with all their digits if they were read.
+/// q and its rates, four per line, with the six decimals of cards, or with all digits if they were read.
 pub(crate) fn coordinates(pages: &mut Pages, units: Units, title: &str, at: &ReportCoordinates) {
     let title = units.heading(&format!("{title}: Q(1) TO Q(3) ({{}}), THE REST (RAD), AND RATES (PER SEC)"), &[Metre]);
     let mut table = Table::new(title, "NO|Q|RATE|NO|Q|RATE|NO|Q|RATE|NO|Q|RATE");

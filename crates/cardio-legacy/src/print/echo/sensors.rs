@@ -7,7 +7,7 @@ use super::path::{after, direction, pose};
 use crate::print::unit::{degree, g};
 use crate::print::{Pages, Table, Units};
 
-/// Writes how the record is read, then the record.
+/// Writes the options of the record, then the record.
 pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: Units) {
     let (d, v) = (path.definition(), units.of(MetrePerSecond));
     let (from_s, to_s) = path.span_s();
@@ -38,7 +38,7 @@ pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: Units) {
     record(pages, &d.record, units);
 }
 
-/// The samples as they were read: accelerations in g, rates in deg/s, velocity changes in the printout's unit.
+/// Samples as read: accelerations in g, rates in deg/s, velocity changes in the printout's unit.
 fn record(pages: &mut Pages, record: &SensorRecord, units: Units) {
     let (channels, v) = (record.channels(), units.of(MetrePerSecond));
     let heads: String = channels.iter().map(|(name, _)| format!("|{}", name.to_uppercase())).collect();

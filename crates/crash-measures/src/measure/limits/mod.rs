@@ -76,12 +76,12 @@ impl Grade {
     }
 }
 
-/// Where a number was read.
+/// Source of a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Basis {
     /// In a program, manual or report that quotes the rule.
     SecondarySource,
-    /// Nowhere in particular; generally known.
+    /// From memory; generally known.
     CommonKnowledge,
 }
 
@@ -90,7 +90,7 @@ pub enum Basis {
 pub struct Limit {
     /// The rule.
     pub rule: Rule,
-    /// The dummy it holds for; none if it holds for any of the rule's blow, or where no dummy is involved.
+    /// The dummy it applies to; none if it applies to any dummy of the rule's direction, or without a dummy.
     pub dummy: Option<Dummy>,
     /// The quantity.
     pub quantity: Quantity,
@@ -121,7 +121,7 @@ impl Limit {
         Verdict { passed: value.is_finite() && margin >= 0.0, margin, relative_margin: margin / self.most }
     }
 
-    /// Whether the rule is broken beyond it: it is a maximum, or the bound of the last class or level that the rule has.
+    /// Whether exceeding it breaks the rule: it is a maximum, or the bound of the rule's last class or level.
     #[must_use]
     pub fn is_last(&self) -> bool {
         let mut beside = LIMITS.iter().filter(|other| other.rule == self.rule && other.quantity == self.quantity);
@@ -129,8 +129,8 @@ impl Limit {
     }
 }
 
-/// The limits of a rule that hold for a dummy, those for any dummy of the rule's blow included. A rule without dummies holds
-/// with any.
+/// The limits of a rule for a dummy, including those for any dummy of the rule's direction. A rule without dummies
+/// applies to all.
 pub fn limits(rule: Rule, dummy: Dummy) -> impl Iterator<Item = &'static Limit> {
     let is_of_blow = rule.blow().is_none_or(|blow| blow == dummy.blow());
     LIMITS.iter().filter(move |limit| is_of_blow && limit.rule == rule && limit.dummy.is_none_or(|d| d == dummy))

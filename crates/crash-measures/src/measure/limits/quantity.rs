@@ -1,6 +1,6 @@
 //! What rules limit.
 
-/// What is limited.
+/// A limited quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// HIC15.
@@ -19,7 +19,7 @@ pub enum Quantity {
     ChestThreeMsCumulative,
     /// Deflection of the sternum, or of the deepest point of a chest, m.
     ChestDeflection,
-    /// Viscous criterion of the chest from the front, m/s.
+    /// Viscous criterion of the chest in frontal impact, m/s.
     ViscousCriterion,
     /// Femur axial compression as a positive number, N.
     FemurAxial,
@@ -29,7 +29,7 @@ pub enum Quantity {
     SeverityIndex,
     /// Occupant impact velocity, each component, m/s.
     OccupantImpactVelocity,
-    /// Occupant impact velocity forward or back, m/s; the rule says nothing of the sides.
+    /// Occupant impact velocity, longitudinal, m/s; the rule has no lateral limit.
     LongitudinalImpactVelocity,
     /// Occupant ridedown acceleration, each component, m/s².
     RidedownAcceleration,
@@ -49,11 +49,11 @@ pub enum Quantity {
     TibiaIndex,
     /// Tibia axial compression as a positive number, N.
     TibiaAxial,
-    /// Deflection of the deepest rib of the chest from the side, m.
+    /// Deflection of the deepest chest rib in side impact, m.
     RibDeflection,
-    /// Viscous criterion of a rib of the chest or abdomen from the side, m/s.
+    /// Viscous criterion of a chest or abdominal rib in side impact, m/s.
     RibViscousCriterion,
-    /// Deflection of the deeper rib of the abdomen, m.
+    /// Deflection of the deeper abdominal rib, m.
     AbdomenRibDeflection,
     /// Force of the abdomen: sum of its cells, N.
     AbdomenForce,
@@ -73,9 +73,9 @@ pub enum Quantity {
     Nkm,
     /// Speed of the head's rebound, m/s.
     ReboundSpeed,
-    /// Shear of the upper neck where the neck pushes the head ahead, N.
+    /// Shear of the upper neck that pushes the head forward, N.
     NeckShearAhead,
-    /// Acceleration ahead of T1, m/s².
+    /// Forward acceleration of T1, m/s².
     T1Acceleration,
     /// Time of the head's contact with its restraint, s.
     HeadContactTime,

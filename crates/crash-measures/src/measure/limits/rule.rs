@@ -125,7 +125,7 @@ impl Rule {
         }
     }
 
-    /// The blow of its test; none if no dummy is asked.
+    /// Direction of impact of its test; none without a dummy.
     #[must_use]
     pub fn blow(self) -> Option<Blow> {
         match self {

@@ -32,7 +32,7 @@ const SID_IIS: Option<Dummy> = Some(Dummy::SidIis);
 const WORLD_SID: Option<Dummy> = Some(Dummy::WorldSid50M);
 const BIO_RID: Option<Dummy> = Some(Dummy::BioRidIi);
 
-/// The roll and pitch that a vehicle may reach and stay upright, rad.
+/// Largest roll and pitch of a vehicle that counts as upright, rad.
 const UPRIGHT_RAD: f64 = 75.0 * std::f64::consts::PI / 180.0;
 
 const fn entry(rule: Rule, dummy: Option<Dummy>, quantity: Quantity, most: f64, grade: Grade, basis: Basis) -> Limit {

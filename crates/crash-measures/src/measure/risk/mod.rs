@@ -93,8 +93,8 @@ pub fn chest_deflection_risk_at_age(deflection_m: f64, age_years: f64) -> f64 {
     logistic(12.597 - 0.058_61 * age_years, 1.568 * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612))
 }
 
-/// Chest risk from the deflection of a Hybrid III's sternum, m, as NHTSA gave it in 1999; AIS 2+ to 5+. It does not vanish
-/// without deflection (AIS 3+: 2.4 %).
+/// Chest risk from the deflection of a Hybrid III's sternum, m, as published by NHTSA in 1999; AIS 2+ to 5+. It does
+/// not vanish without deflection (AIS 3+: 2.4 %).
 #[must_use]
 pub fn chest_deflection_risk_1999(deflection_m: f64, severity: Severity) -> Option<f64> {
     let of = [(Ais2, (1.8706, 0.044_39)), (Ais3, (3.7124, 0.0475)), (Ais4, (5.0952, 0.0475)), (Ais5, (8.8274, 0.0459))];
@@ -161,7 +161,7 @@ pub fn us_ncap_frontal_stars(joint_risk: f64) -> Option<u8> {
     Some([2.67, 1.33, 1.00, 0.67].iter().fold(1, |stars, &bound| if relative < bound { stars + 1 } else { stars }))
 }
 
-/// What stands beside `key`, if the curve is known for it.
+/// The value for `key`, if the table has it.
 fn beside<K: PartialEq, V: Copy>(table: &[(K, V)], key: K) -> Option<V> {
     table.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
 }

@@ -1,6 +1,6 @@
 //! What is known of people, not of dummies.
 
-/// How many ribs are broken.
+/// Number of broken ribs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BrokenRibs {
     /// At least one.
@@ -9,11 +9,11 @@ pub enum BrokenRibs {
     MoreThanSix,
 }
 
-/// The compression of the chest (deflection over depth) at which one half of people of an age, in years, have ribs broken:
+/// Compression of the chest (deflection over depth) at which half of the people of an age, in years, have broken ribs:
 /// Kent et al. (ESV 2003), 93 subjects, all loads. None below 30 and above 70 years.
 ///
-/// Only the values at 30 and 70 years were found, in an abstract; between them they are joined by a straight line. The slope
-/// of the curve was not found, so this is one point of it and no risk.
+/// Only the values at 30 and 70 years were found, in an abstract; between them it is linear. The slope of the curve was not
+/// found, so this is a single point of it, not a risk curve.
 #[must_use]
 pub fn even_odds_compression(ribs: BrokenRibs, age_years: f64) -> Option<f64> {
     let [at_30, at_70] = match ribs {

@@ -2,36 +2,36 @@
 
 use crate::signal::{SignalError, require_positive, require_samples};
 
-/// What counts as a contact.
+/// Definition of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RestraintContact {
-    /// Force from which the head touches, N.
+    /// Force above which there is contact, N.
     pub least_n: f64,
-    /// A shorter contact does not count, s.
+    /// Shortest duration of a contact, s.
     pub shortest_s: f64,
-    /// A gap up to this long does not end a contact, s.
+    /// Longest gap within a contact, s.
     pub longest_gap_s: f64,
 }
 
 impl Default for RestraintContact {
-    /// Those of Euro NCAP's whiplash test: more than 40 ms, gaps up to 1 ms (as generally known); from 1 N on, which is ours:
-    /// a test has a foil that closes a circuit.
+    /// As in Euro NCAP's whiplash test: more than 40 ms, gaps up to 1 ms (from memory); from 1 N, our value: a test
+    /// uses a foil that closes a circuit.
     fn default() -> Self {
         Self { least_n: 1.0, shortest_s: 0.040, longest_gap_s: 0.001 }
     }
 }
 
-/// The first contact of head and restraint that lasts.
+/// The first lasting contact of head and restraint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadContact {
-    /// T-HRC(start), s: where a straight line through the first two samples that touch begins, but not before the last that
-    /// does not touch.
+    /// T-HRC(start), s: the start of a straight line through the first two samples in contact, not before the last sample
+    /// without contact.
     pub start_s: f64,
-    /// T-HRC(end), s: the last sample that touches; that of the record if the head never leaves.
+    /// T-HRC(end), s: the last sample in contact; that of the record if the contact does not end.
     pub end_s: f64,
 }
 
-/// The first contact that counts, of the force between head and restraint, N (amounts); none if there is no such contact.
+/// The first contact in the force between head and restraint, N (magnitudes); none if there is none.
 ///
 /// # Errors
 /// No sample, a sample that is not finite, an interval or force that is not positive, a duration that is negative.
@@ -75,7 +75,7 @@ fn begun(force_n: &[f64], dt_s: f64, least_n: f64, known: HeadContact) -> HeadCo
     HeadContact { start_s: (first as f64 - before) * dt_s, ..known }
 }
 
-/// Times of the samples at which there is contact.
+/// Times of the samples in contact.
 fn touches(force_n: &[f64], dt_s: f64, least_n: f64) -> impl Iterator<Item = f64> {
     let all = force_n.iter().enumerate();
     all.filter(move |(_, force)| force.abs() >= least_n).map(move |(i, _)| i as f64 * dt_s)

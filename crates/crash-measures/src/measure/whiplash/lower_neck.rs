@@ -6,7 +6,7 @@
 use crate::measure::{Peak, peak::maximum};
 use crate::signal::{SignalError, require_positive, require_same_length, require_samples};
 
-/// Loads that each alone make an index of 1.
+/// Loads that each alone give an index of 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LowerNeckIntercepts {
     /// Moment, N·m.

@@ -14,13 +14,13 @@ const NECK_M: f64 = 0.2;
 /// The criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nic {
-    /// NIC_max, m²/s²: the largest value up to the end of contact, or of the whole record where there is none.
+    /// NIC_max, m²/s²: the maximum up to the end of contact, or of the whole record without contact.
     pub greatest: Peak,
-    /// The value where the head begins to touch, m²/s²; none without contact.
+    /// The value at the start of head contact, m²/s²; none without contact.
     pub at_contact: Option<f64>,
 }
 
-/// NIC at every sample, m²/s², of accelerations ahead of T1 and of the head's c.g. in m/s².
+/// NIC at every sample, m²/s², from forward accelerations of T1 and of the head's c.g., m/s².
 ///
 /// # Errors
 /// No sample, different lengths, a sample that is not finite, an interval that is not positive.

@@ -6,7 +6,7 @@
 use crate::measure::Dummy;
 use crate::signal::{SignalError, require_positive, require_same_length, require_samples};
 
-/// Loads that each alone make N_km = 1.
+/// Loads that each alone give N_km = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NkmIntercepts {
     /// Anterior shear, N.
@@ -20,11 +20,11 @@ pub struct NkmIntercepts {
 }
 
 impl NkmIntercepts {
-    /// Those of a 50th percentile male: 845 N, 88.1 and 47.5 N·m, as generally known. They come from tolerances of people, and
-    /// hold for the Hybrid III 50M and the BioRID-II.
+    /// Intercepts of a 50th percentile male: 845 N, 88.1 and 47.5 N·m, from memory. They are derived from human
+    /// tolerance, and apply to the Hybrid III 50M and the BioRID-II.
     pub const MALE_50: Self = Self { anterior_n: 845.0, posterior_n: 845.0, flexion_nm: 88.1, extension_nm: 47.5 };
 
-    /// Those of a dummy, if any are known.
+    /// The intercepts of a dummy, if known.
     #[must_use]
     pub fn of(dummy: Dummy) -> Option<Self> {
         matches!(dummy, Dummy::HybridIii50M | Dummy::BioRidIi).then_some(Self::MALE_50)
@@ -49,11 +49,11 @@ pub enum NkmMode {
 pub struct Nkm {
     /// The largest value, without unit.
     pub value: f64,
-    /// Where it stands, s.
+    /// Its time, s.
     pub time_s: f64,
     /// The combination it belongs to.
     pub mode: NkmMode,
-    /// Largest value of each combination in the order N_fa, N_ea, N_fp, N_ep; zero where the signs never meet.
+    /// Largest value of each combination in the order N_fa, N_ea, N_fp, N_ep; zero if its signs never coincide.
     pub by_mode: [f64; 4],
 }
 

@@ -17,8 +17,8 @@ pub fn greatest_until(values: &[f64], dt_s: f64, end_s: f64) -> Result<Peak, Sig
     maximum(&values[..=last], dt_s)
 }
 
-/// Largest speed ahead of the head against the vehicle from `from_s` (its contact with the restraint) on, m/s; 0 if it never
-/// comes back. Both speeds are along the vehicle's X.
+/// Largest forward speed of the head relative to the vehicle after `from_s` (its contact with the restraint), m/s; 0 if
+/// it does not rebound. Both speeds are along the vehicle's X.
 ///
 /// # Errors
 /// Different lengths, no sample, a sample that is not finite, an interval that is not positive, a start outside of the record.
@@ -34,16 +34,16 @@ pub fn rebound_speed(head_mps: &[f64], vehicle_mps: &[f64], dt_s: f64, from_s: f
     Ok(Peak { time_s: peak.time_s + first as f64 * dt_s, ..peak })
 }
 
-/// Largest travel of one point against another, from where they were at the start.
+/// Largest displacement of one point relative to another, from their initial positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Travel {
-    /// Ahead, m.
+    /// Forward, m.
     pub ahead: Peak,
-    /// Back, as a positive number, m.
+    /// Backward, as a positive number, m.
     pub back: Peak,
 }
 
-/// Travel of the pelvis against the seat: both places along one axis that is positive ahead, m.
+/// Displacement of the pelvis relative to the seat: both positions along one axis, positive forward, m.
 ///
 /// # Errors
 /// Different lengths, no sample, a sample that is not finite, an interval that is not positive.

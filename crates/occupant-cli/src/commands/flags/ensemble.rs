@@ -55,7 +55,7 @@ pub(crate) struct EnsembleArgs {
 }
 
 impl EnsembleArgs {
-    /// The ensemble that the flags ask for, if they do.
+    /// The ensemble requested by the flags, if any.
     ///
     /// # Errors
     /// Amounts, channels and files that cannot be.
@@ -116,10 +116,10 @@ fn band_file(path: &Path) -> Result<BandFile, Failure> {
     }
 }
 
-/// A segment keeps some of its mass.
+/// Largest relative change of a segment, so that it keeps some mass.
 const MOST_OF_A_SEGMENT: f64 = 0.99;
 
-/// The standard changes, with what the flags say instead.
+/// The standard perturbations, changed by the flags.
 fn changes(given: &[String]) -> Result<Tolerances, Failure> {
     let mut changes = Tolerances::default();
     for text in given {
@@ -150,7 +150,7 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
     Ok(changes)
 }
 
-/// A part such as `10 %` or 0.1, above 0.
+/// A fraction such as `10 %` or 0.1, above 0.
 fn part(flag: &str, text: &str) -> Result<f64, Failure> {
     let refused =
         |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a fraction such as '10 %'");
@@ -159,7 +159,7 @@ fn part(flag: &str, text: &str) -> Result<f64, Failure> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused("it is not above 0".to_owned())) }
 }
 
-/// A number with its unit, SI.
+/// A value with its unit, in SI.
 fn measured(kind: usize, text: &str) -> Result<f64, UnitError> {
     KINDS[kind].si(&Value::String(text.to_owned()), UnitSystem::Si)
 }

@@ -4,7 +4,7 @@ use occupant_scenario::kind::{KINDS, TIME};
 
 use occupant_files::measured::MapArgument;
 
-/// The part of the time that is shown or compared, s.
+/// Time window that is shown or compared, s.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct WindowArgs {
     /// Begin at this time, such as '20 ms'
@@ -16,7 +16,7 @@ pub(crate) struct WindowArgs {
     pub(crate) to: Option<f64>,
 }
 
-/// How the signals of a test belong to channels and their time.
+/// Assignment of a test's signals to channels, and their time shift.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct TestArgs {
     /// Assign a column of the test to a channel: 'column=channel', 'column[unit]=channel', or 'column=-channel' to reverse
@@ -33,7 +33,7 @@ pub(crate) struct TestArgs {
     pub(crate) shift: f64,
 }
 
-/// A time in words, s; a bare number is in seconds.
+/// A time as text, s; a bare number is in seconds.
 ///
 /// # Errors
 /// What is no time.
@@ -46,7 +46,7 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A time between samples or prints in words, s.
+/// An interval between samples or prints as text, s.
 ///
 /// # Errors
 /// What is no time above zero.

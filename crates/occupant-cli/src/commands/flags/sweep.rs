@@ -15,7 +15,7 @@ use occupant_jobs::files::study_folder::shard::Shard;
 use occupant_jobs::sweep::kept;
 use occupant_jobs::sweep::plan::Plan;
 
-/// The part to compute, and the variable that says so.
+/// The shard to compute, from the flag or the environment variable.
 pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
     let refused = |found: String| {
         Failure::with_help(found, "use --shard 1/1 to compute everything, regardless of the environment")
@@ -31,7 +31,7 @@ pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>)
     })
 }
 
-/// Which runs to write: as the command line says, or else the study.
+/// Runs to keep, from the command line or else from the study.
 pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     let keep = match given {
         Some(text) => kept::parse(text).ok_or_else(|| {
@@ -67,10 +67,10 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     Ok(keep)
 }
 
-/// More threads than this only cost memory.
+/// Largest number of threads; more only cost memory.
 const MOST_THREADS: usize = 1024;
 
-/// As many threads as the command line says, or one for each core.
+/// An engine with the given number of threads, or one per core.
 pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<Engine, Failure> {
     let cores = || available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let threads = threads.unwrap_or_else(cores).get();
@@ -81,7 +81,7 @@ pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<En
     Engine::new(threads, kernel).map_err(|e| Failure::plain(format!("no thread can be started: {e}")))
 }
 
-/// What computes many runs.
+/// Threads and kernel of many runs.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct EngineArgs {
     /// Number of threads; one per core if absent
@@ -109,7 +109,7 @@ impl EngineArgs {
     }
 }
 
-/// The folder of a study's results where none is named: its name without the ending, in the present folder.
+/// Default result folder of a study: its name without extension, in the current folder.
 ///
 /// # Errors
 /// A study without a name.

@@ -13,7 +13,7 @@ use crate::base::{Done, Failure, Units, ending, json, note, print};
 use crate::commands::tables::measures::{remarks, risks, side_by_side, table};
 use crate::commands::tables::summary::Marks;
 
-/// Whether a file or folder is read as a test, not as the results of a run.
+/// Whether a file or folder is a test instead of a result file.
 pub(super) fn is_test(file: &Path) -> bool {
     file.is_dir() || ["csv", "txt", "tsv", "mme", "tdms", "ev5"].contains(&ending(file).as_str())
 }
@@ -28,11 +28,11 @@ struct Judged {
 #[derive(Serialize)]
 struct Answer<'a> {
     file: &'a str,
-    /// The time that the signals cover, s.
+    /// Time span of the signals, s.
     covers_s: [f64; 2],
     interval_s: f64,
     dummy: &'static str,
-    /// Which signal is read from which column.
+    /// Signals with the columns they are read from.
     signals: Vec<[&'a str; 2]>,
     measures: &'a [Measure],
     notes: &'a [String],
@@ -64,7 +64,7 @@ impl Judged {
         }
     }
 
-    /// Which signal is which column, a line each.
+    /// Signals with their columns, one per line.
     fn columns(&self) -> String {
         let line = |(name, column): &(String, String)| {
             if name == column { format!("{name}\n") } else { format!("{name}: {}\n", shown(column)) }
@@ -89,7 +89,7 @@ impl Judged {
     }
 }
 
-/// Whether a test has what the measure is made of; that a chest is rigid is said of bodies, not of tests.
+/// Whether a test has the signals of the measure; remarks on rigid chests apply to bodies only.
 fn is_of_test(measure: &Measure) -> bool {
     measure.has_part() && (measure.value.is_some() || measure.figure.is_some())
 }
@@ -133,7 +133,7 @@ fn texts(all: &[Judged], options: &Options, units: Units) -> String {
     .join("\n")
 }
 
-/// Flags of tests say nothing of runs.
+/// Refuses flags that apply to runs only.
 pub(super) fn refuse_flags(args: &Args) -> Result<(), Failure> {
     let mend = "leave it out, or give a test";
     match () {

@@ -8,37 +8,37 @@ pub(super) enum Template {
     /// A belted driver, 50 km/h into a stop
     #[default]
     Driver,
-    /// The same with the wheel on the right
+    /// The same in a right-hand-drive car
     RightHandDrive,
-    /// A belted passenger behind the driver's seat, 50 km/h into a stop
+    /// A belted passenger behind the driver, 50 km/h into a stop
     RearSeat,
-    /// A belted driver, struck in the door beside him
+    /// A belted driver struck on the near side
     Side,
-    /// A belted driver, struck on the other side
+    /// A belted driver struck on the far side
     FarSide,
-    /// A driver, struck from behind
+    /// A driver struck from behind
     Rear,
     /// A belted driver in a quarter-turn rollover
     Rollover,
-    /// A belted driver in a crash that an event data recorder has kept
+    /// A belted driver in a crash recorded by an event data recorder
     Edr,
-    /// An occupant on a sled, belted, a pulse from a table
+    /// A belted occupant on a sled, with a tabulated pulse
     Sled,
-    /// Head and neck of a living person driven at T1, as on a sled
+    /// Head and neck of a living volunteer driven at T1, as in sled tests
     Neck,
-    /// A pedestrian struck by a car that brakes
+    /// A pedestrian struck by a braking car
     Pedestrian,
-    /// A belted driver in a crash that sensors in the car have recorded
+    /// A belted driver in a crash recorded by sensors in the car
     Sensors,
-    /// A belted driver in a sedan that runs off the road into a ditch
+    /// A sedan with a belted driver that runs off the road into a ditch
     Drive,
-    /// A study of my-case.toml: what is varied, and between which ends
+    /// A study of my-case.toml: its parameters and their ranges
     Study,
 }
 
-/// Sections and the comments before them.
+/// A section and the comments before it.
 struct Section<'a> {
-    /// Empty for what stands before all sections: the head of the scenario with its title.
+    /// Section name; empty for the head of the scenario with its title.
     name: &'a str,
     comments: &'a str,
     text: &'a str,
@@ -66,7 +66,7 @@ impl Template {
         }
     }
 
-    /// What one does next with a file of this name.
+    /// Next commands for a file of this name.
     pub(super) fn next(self, name: &str) -> String {
         match self {
             Template::Drive => format!("occupant drive {name}\n      occupant run {name}"),
@@ -76,8 +76,8 @@ impl Template {
     }
 }
 
-/// The sections of `base`, each as `changes` has it if it does, then what else `changes` has. A changed section keeps the
-/// comments before it unless it brings its own.
+/// The sections of `base`, replaced by those of `changes`, then the new sections of `changes`. A changed section keeps
+/// its comments unless the change brings its own.
 pub(super) fn changed(base: &str, changes: &str) -> String {
     let (base, changes) = (sections(base), sections(changes));
     let as_changed = |old: &Section<'_>| match changes.iter().find(|new| new.name == old.name) {

@@ -16,10 +16,10 @@ use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
 use occupant_jobs::import::PathFilter;
 use occupant_jobs::risk::{PATH_INTERVAL_S, Subject};
 
-/// Length of the beginning of a record that says whether gravity is in it, s.
+/// Duration at the start of a record used to detect gravity in it, s.
 const BEFORE_S: f64 = 0.01;
 
-/// What the file holds, the signals that it gives, and into `notes` what to know of them.
+/// The signals of the file; remarks go to `notes`.
 pub(crate) fn measured(
     args: &Args,
     wanted: &Preparation,
@@ -58,7 +58,7 @@ pub(crate) fn measured(
     sampled(&name, subject, &Preparation { baseline_s: [None; 2], ..wanted.clone() })
 }
 
-/// The signals of a path, which was sampled as asked and knows neither sensors nor gravity.
+/// Signals of a path, sampled as requested, without sensors or gravity.
 fn sampled(name: &str, subject: Subject, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
     let of_path = Preparation { interval_s: None, ..wanted.clone() };
     let mut signals = prepare(&subject.record, &of_path).map_err(|error| unprepared(name, &error))?;
@@ -138,7 +138,7 @@ fn unsampled(name: &str, interval_s: f64) -> Failure {
     )
 }
 
-/// The motion in a record, and which way its axes point.
+/// The motion in a record, and the direction of its axes.
 fn motion(args: &Args, name: &str, notes: &mut Vec<String>) -> Result<(Motion, Axes), Failure> {
     let vehicle = args.vehicle.as_deref().map(|number| {
         number.parse().map_err(|_| {
@@ -172,7 +172,7 @@ fn motion(args: &Args, name: &str, notes: &mut Vec<String>) -> Result<(Motion, A
     Ok((motion, told.unwrap_or(Axes::ZDown)))
 }
 
-/// A column along or about axes forward, right, down.
+/// A column in axes forward, right, down.
 fn turned(motion: &Motion, axes: Axes, name: &str, axis: usize) -> Option<Vec<f64>> {
     let mut values = motion.si(name)?;
     if axes == Axes::ZUp && axis > 0 {
@@ -190,7 +190,7 @@ fn record(motion: &Motion, axes: Axes) -> AccelerationRecord {
     }
 }
 
-/// The path that velocity changes, or places and angles, tell of.
+/// The path given by velocity changes, or by positions and angles.
 fn path(motion: &Motion, axes: Axes, smoothed_hz: Option<f64>) -> Result<VehiclePath, String> {
     let problems = |problems: Vec<occupant_core::vehicle::PathProblem>| {
         problems.first().map_or_else(String::new, ToString::to_string)
@@ -235,7 +235,8 @@ fn path(motion: &Motion, axes: Axes, smoothed_hz: Option<f64>) -> Result<Vehicle
     path.map(VehiclePath::Table).map_err(problems)
 }
 
-/// What speaks against what is said of gravity: a level vehicle before its crash reads −1 g along z, or 0 without gravity.
+/// Warning if a record contradicts the gravity setting: a level vehicle before its crash reads −1 g along z, or 0
+/// without gravity.
 fn doubt_of_gravity(record: &AccelerationRecord, included: bool) -> Option<String> {
     let az = record.acceleration_m_s2[2].as_ref()?;
     let first_s = record.time_s.first()? + BEFORE_S;
@@ -251,7 +252,7 @@ fn doubt_of_gravity(record: &AccelerationRecord, included: bool) -> Option<Strin
     Some(format!("az begins at {mean_g:.2} g; {remedy}"))
 }
 
-/// The largest class that fits samples with half the rate `nyquist_hz`.
+/// The largest filter class below half the sample rate `nyquist_hz`, as help text.
 fn remedy(nyquist_hz: f64) -> String {
     // the corner of one pass of two lies at 2.08 times the class
     let fits = ChannelClass::ALL.into_iter().rev().find(|class| 2.1 * class.hertz() < nyquist_hz);
@@ -262,7 +263,7 @@ fn remedy(nyquist_hz: f64) -> String {
     format!("{class}; use --filter none for data that are filtered already")
 }
 
-/// Why a record cannot be measured, with the remedy.
+/// Error message of an unusable record, with its remedy.
 fn unprepared(name: &str, error: &Unprepared) -> Failure {
     if let Unprepared::Channel { name: "t", error: SignalError::NotUniform { index, found_s, expected_s } } = error {
         return Failure::with_help(

@@ -8,7 +8,7 @@ use super::Args;
 use crate::base::Failure;
 use occupant_jobs::import::PathFilter;
 
-/// What is done with the record.
+/// Preparation of the record.
 pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
     let interval_s = quantity("--interval", TIME, &args.interval)?;
     Ok(Preparation {
@@ -25,7 +25,7 @@ pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
     })
 }
 
-/// The class that --filter asks for; a frequency smooths places and leaves the class as it is.
+/// Filter class requested by --filter; a frequency smooths positions and does not change the class.
 fn class(args: &Args) -> Option<ChannelClass> {
     match args.filter {
         None | Some(PathFilter::Frequency(_)) => ChannelClass::from_number(180),
@@ -34,7 +34,7 @@ fn class(args: &Args) -> Option<ChannelClass> {
     }
 }
 
-/// The bounds of the errors of the sensors.
+/// Bounds of sensor errors.
 pub(crate) fn errors(args: &Args) -> Result<SensorErrors, Failure> {
     let mut errors = SensorErrors::default();
     for text in &args.sensor_error {
@@ -61,7 +61,7 @@ pub(crate) fn errors(args: &Args) -> Result<SensorErrors, Failure> {
     Ok(errors)
 }
 
-/// Where the occupant starts and how far it may fly.
+/// Flail distances and initial head position.
 pub(crate) fn flight(args: &Args) -> Result<Flight, Failure> {
     let mut flight = Flight::default();
     if let Some(x_m) = quantity("--flail-x", LENGTH, &args.flail_x)? {
@@ -78,7 +78,7 @@ pub(crate) fn flight(args: &Args) -> Result<Flight, Failure> {
     Ok(flight)
 }
 
-/// A flag's quantity in SI; a bare number is in SI.
+/// Quantity of a flag in SI; a bare number is in SI.
 fn quantity(flag: &str, kind: usize, words: &Option<String>) -> Result<Option<f64>, Failure> {
     words.as_deref().map(|text| si(flag, kind, text)).transpose()
 }

@@ -59,7 +59,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     deliver(&page_at, force, page(&report).as_bytes())
 }
 
-/// Refuses names that are no page, and files of the sweep itself.
+/// Refuses a page without .html, and names of the sweep's own files.
 fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
     if !is_page(page) {
         return Err(Failure::with_help(format!("{} is not an .html file", page.display()), "use the extension .html"));
@@ -78,13 +78,13 @@ fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), F
     Ok(())
 }
 
-/// Refuses files that are there.
+/// Refuses existing files.
 fn refuse_there(page: &Path, tables: &Tables) -> Result<(), Failure> {
     let there = [page, &tables.numbers, &tables.samples].into_iter().find(|path| path.exists());
     there.map_or(Ok(()), |path| Err(FileProblem::Exists { path: path.to_owned() }.into()))
 }
 
-/// Whether two names lead to the same place, files that are not there yet included.
+/// Whether two paths are the same file, existing or not.
 fn same(a: &Path, b: &Path) -> bool {
     let whole = |p: &Path| {
         let folder = p.parent().filter(|f| !f.as_os_str().is_empty());

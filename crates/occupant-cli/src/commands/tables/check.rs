@@ -12,12 +12,16 @@ use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, table, trimmed};
 
-/// A joint that lacks less to hold its posture is said to hold it, N·m.
+/// Missing joint moment below which a posture counts as held, N·m.
 const LEAST_LACK_N_M: f64 = 1.0;
 
-/// Everything that a user should see before a run.
-pub(crate) fn check_text(d: &Diagnosis, car: &[Dimension], units: Units) -> String {
-    let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d, units), segments(d, units)];
+/// What a user should see before a run; with `all` also segments, friction, corners, self-contact and time scales.
+pub(crate) fn check_text(d: &Diagnosis, car: &[Dimension], units: Units, all: bool) -> String {
+    let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d, units)];
+    if all {
+        parts.push(segments(d, units));
+    }
+    parts.extend(d.body.weak.map(|words| format!("note: {words}\n")));
     if let Some(seat) = &d.seat {
         parts.push(seating(seat, units));
     }
@@ -31,23 +35,31 @@ pub(crate) fn check_text(d: &Diagnosis, car: &[Dimension], units: Units) -> Stri
         parts.push(shoulders(d));
     }
     parts.push(contacts(d, units));
-    if !d.friction.is_empty() {
-        parts.push(friction(d, units));
+    if all {
+        parts.extend(surroundings(d, units));
     }
-    if !d.corners.is_empty() {
-        parts.push(corners(d));
+    parts.extend(elements::texts(&d.elements, &Marks::default(), units));
+    if all {
+        parts.push(sphere_rates(d, units));
+        parts.extend((!d.other_rates.is_empty()).then(|| other_rates(d)));
     }
+    parts.push(verdict(d));
+    if !all {
+        parts.push("segments, friction and time scales: add --all\n".to_owned());
+    }
+    parts.join("\n")
+}
+
+/// Friction of materials, open corners, and contacts within the body.
+fn surroundings(d: &Diagnosis, units: Units) -> Vec<String> {
+    let mut parts = Vec::new();
+    parts.extend((!d.friction.is_empty()).then(|| friction(d, units)));
+    parts.extend((!d.corners.is_empty()).then(|| corners(d)));
     if !d.self_contact.is_empty() {
         let rows = d.self_contact.iter().map(|(part, others)| [part.clone(), others.join(", ")]);
         parts.push(table(&[(Left, &["part of the body", "can touch"])], rows));
     }
-    parts.extend(elements::texts(&d.elements, &Marks::default(), units));
-    parts.push(sphere_rates(d, units));
-    if !d.other_rates.is_empty() {
-        parts.push(other_rates(d));
-    }
-    parts.push(verdict(d));
-    parts.join("\n")
+    parts
 }
 
 fn overview(d: &Diagnosis, units: Units) -> String {
@@ -109,8 +121,7 @@ fn segments(d: &Diagnosis, units: Units) -> String {
         let cells = [s.segment.to_owned(), units.number(s.mass_kg, "kg", 3), length(s.length_m), band];
         cells.into_iter().take(1 + columns.len()).collect::<Vec<_>>()
     };
-    let weak = d.body.weak.map_or(String::new(), |words| format!("note: {words}\n"));
-    table(&[(Left, &["segment"]), (Right, &columns)], all.iter().map(row)) + &weak
+    table(&[(Left, &["segment"]), (Right, &columns)], all.iter().map(row))
 }
 
 fn seating(seat: &SeatStart, units: Units) -> String {
@@ -141,23 +152,23 @@ fn seating(seat: &SeatStart, units: Units) -> String {
     if let Some(lack) = seat.settled.and_then(|s| s.lack).filter(|lack| lack.moment_n_m > LEAST_LACK_N_M) {
         let joint = lack.joint.replace('_', " ");
         let words = format!(
-            "posture is not in balance: {joint} lacks {}, so the body sags as the run begins; ",
+            "note: without muscles the posture is not in balance, {joint} lacks {}: the body sags slowly as the run begins; ",
             units.say(lack.moment_n_m, "N·m", 1)
         );
-        lines.push(("joints", words + "give it muscles with tone, or set posture.limp = true to let it settle first"));
+        lines.push(("joints", words + "to avoid it, add muscles with tone, or set posture.limp = true"));
     }
     if let Some(s) = seat.unsettled.filter(Settled::is_unbalanced) {
         let left = [s.residual_force_n, s.weight_n].map(|n| units.say(n, "N", 0));
         let left = format!("a force of {} (weight {})", left[0], left[1]);
         lines.push((
             "unsettled",
-            format!("{left} is left over and disturbs the first 50 ms; set posture.settle = true"),
+            format!("{left} is unbalanced and disturbs the first 50 ms; set posture.settle = true"),
         ));
     }
     facts(&lines)
 }
 
-/// Every distance of a car in words, and what else was chosen.
+/// All distances of a car written with `[car]`.
 fn dimensions(car: &[Dimension], units: Units) -> String {
     let row = |own: &Dimension| {
         let vehicle = own.vehicle.as_ref().map_or(String::new(), |vehicle| format!("vehicles.{vehicle}."));
@@ -169,35 +180,37 @@ fn dimensions(car: &[Dimension], units: Units) -> String {
             Size::Word(word) => word.to_owned(),
         };
         let code = if own.code.is_empty() { NONE } else { own.code };
-        [format!("{vehicle}car.{}", own.name), size, code.to_owned()]
+        // a name of several words is no key
+        let of = if own.name.contains(' ') { "" } else { "car." };
+        [format!("{vehicle}{of}{}", own.name), size, code.to_owned()]
     };
     table(&[(Left, &["of the car"]), (Right, &["size"]), (Left, &["SAE J1100"])], car.iter().map(row))
 }
 
-/// What is free before and over the body.
+/// Clearances in front of the body and above it.
 fn clearances(d: &Diagnosis, units: Units) -> String {
     let row = |own: &Clearance| {
-        let way = if own.way == Way::Up { "up" } else { "ahead" };
+        let way = if own.way == Way::Up { "up" } else { "forward" };
         [own.sphere.clone(), way.to_owned(), own.surface.clone(), units.number(own.distance_m * 1e3, "mm", 0)]
     };
-    let free = units.heading("free, mm");
-    let columns = [(Left, &["at the start", "way", "first meets"][..]), (Right, &[free.as_str()][..])];
+    let free = units.heading("clearance, mm");
+    let columns = [(Left, &["from", "direction", "first obstacle"][..]), (Right, &[free.as_str()][..])];
     table(&columns, d.clearances.iter().map(row))
 }
 
-/// How belts lie on shoulders.
+/// Position of belts on the shoulders.
 fn shoulders(d: &Diagnosis) -> String {
     let row = |own: &ShoulderBelt| {
         let lies = match own.lies {
-            OnShoulder::Bears => "bears",
-            OnShoulder::AtNeck => "rubs the neck",
+            OnShoulder::Bears => "on the shoulder",
+            OnShoulder::AtNeck => "against the neck",
             OnShoulder::SlidOff => "slides off",
-            OnShoulder::LiftedOff => "leaves the shoulder",
+            OnShoulder::LiftedOff => "lifts off the shoulder",
         };
         [own.belt.clone(), own.part.clone(), format!("{:.0} %", 100.0 * own.share), lies.to_owned()]
     };
     let columns =
-        [(Left, &["shoulder belt", "over"][..]), (Right, &["from neck to arm"][..]), (Left, &["once it pulls"][..])];
+        [(Left, &["shoulder belt", "over"][..]), (Right, &["from neck to arm"][..]), (Left, &["under load"][..])];
     table(&columns, d.shoulder_belts.iter().map(row))
 }
 
@@ -210,28 +223,29 @@ fn contacts(d: &Diagnosis, units: Units) -> String {
         let [rubs, fully] = [c.friction_n, c.full_friction_n].map(|n| units.number(n, "N", 1));
         [c.sphere.clone(), c.surface.clone(), depth, force, rubs, fully]
     });
-    let heads = ["depth, mm", "force, N", "friction, N", "when it slides, N"].map(|head| units.heading(head));
+    let heads = ["depth, mm", "force, N", "friction, N", "when sliding, N"].map(|head| units.heading(head));
     let heads = heads.each_ref().map(String::as_str);
     table(&[(Left, &["touches at the start", "surface"]), (Right, &heads)], rows)
 }
 
-/// How far friction is from sticking.
+/// Regularised friction: speeds at which it is nearly full, and creep on a slope.
 fn friction(d: &Diagnosis, units: Units) -> String {
-    let heads = ["friction", "71 % of it at, m/s", "creeps on 10°, m/s"].map(|head| units.heading(head));
+    let heads =
+        ["friction", "speed of 71 % friction, m/s", "creep on a 10° slope, m/s"].map(|head| units.heading(head));
     let heads = heads.each_ref().map(String::as_str);
     let rows = d.friction.iter().map(|f| {
         let speed = |m_s: f64| units.number(m_s, "m/s", 3);
         let creeps = f.creeps_m_s.map_or("slides".to_owned(), speed);
         [f.material.clone(), trimmed(f.coefficient, 3), speed(f.speed_m_s), creeps]
     });
-    let note = "friction grows with slip and never sticks; a smaller `friction_speed` is closer to sticking, but needs shorter steps\n";
+    let note = "friction grows with sliding speed and never sticks; a smaller `friction_speed` is closer to sticking, but needs shorter steps\n";
     table(&[(Left, &["material"]), (Right, &heads)], rows) + note
 }
 
-/// Corners that a sphere may come round.
+/// Open convex corners of surfaces, around which a sphere may move.
 fn corners(d: &Diagnosis) -> String {
     let rows = d.corners.iter().cloned();
-    let note = "a sphere that comes round such a corner passes through without force; a solid stops it\n";
+    let note = "a sphere that moves around such a corner passes through without force; a solid stops it\n";
     table(&[(Left, &["convex corner of", "and"])], rows) + note
 }
 
@@ -241,7 +255,7 @@ fn sphere_rates(d: &Diagnosis, units: Units) -> String {
     let heads = heads.each_ref().map(String::as_str);
     let rows = d.sphere_rates.iter().map(|s| {
         let r = &s.rate;
-        // what is held gives way to nothing
+        // a held part has infinite effective mass
         let mass = if r.effective.is_finite() { units.number(r.effective, "kg", 3) } else { NONE.to_owned() };
         let slope = units.number(r.coefficient / 1e3, "kN/m", 1);
         let limit = s.friction_limit_n.map_or(NONE.to_owned(), |n| units.number(n, "N", 0));
@@ -256,7 +270,7 @@ fn other_rates(d: &Diagnosis) -> String {
     table(&[(Left, &["belt or joint", ""]), (Right, &["time scale, ms", "step/time scale"])], rows)
 }
 
-/// In ms; none of what is held, which answers nothing.
+/// Time scale in ms; none if both parts are held and cannot move.
 fn time_scale(rate: &Rate) -> String {
     if rate.time_scale_s.is_finite() { format!("{:.3}", rate.time_scale_s * 1e3) } else { NONE.to_owned() }
 }

@@ -8,7 +8,7 @@ use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, table};
 
-/// A text for each kind of which there are any.
+/// A table for each kind of element present.
 pub(crate) fn texts(tables: &Tables, marks: &Marks, units: Units) -> impl Iterator<Item = String> {
     let there = tables.iter().filter(|(_, elements)| !elements.rows.is_empty());
     there.map(move |(of, elements)| text(of, elements, marks, units))

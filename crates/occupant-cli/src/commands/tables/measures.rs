@@ -9,7 +9,7 @@ use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{self, NONE, Table};
 
-/// What to know of measures, a line for all of which the same is to know.
+/// Remarks on measures, one line for all measures with the same remark.
 pub(crate) fn remarks(measures: &[Measure]) -> String {
     let mut remarks: Vec<(&str, Vec<&str>)> = Vec::new();
     for (label, remark) in measures.iter().filter_map(|m| Some((m.label, m.remark.as_ref()?))) {
@@ -21,7 +21,7 @@ pub(crate) fn remarks(measures: &[Measure]) -> String {
     remarks.iter().map(|(remark, labels)| format!("{}: {remark}\n", labels.join(", "))).collect()
 }
 
-/// Risks of injury, a line for each curve; one from a marked measure is marked, and one whose curve contradicts another.
+/// Injury risks, one line per curve; marked if the measure is marked or the curve contradicts another.
 pub(crate) fn risks(measures: &[Measure], marks: &Marks) -> String {
     let rows = measures.iter().flat_map(|m| m.risks.iter().map(move |risk| (m, risk))).map(|(m, risk)| {
         let mark = if risk.agrees && !marks.spoils(m.figure.unwrap_or(m.name)) { " " } else { "!" };
@@ -30,7 +30,7 @@ pub(crate) fn risks(measures: &[Measure], marks: &Marks) -> String {
     text_table::table(&[(Left, &["injury", "from"]), (Right, &["risk, %"])], rows)
 }
 
-/// Measures, each limit on a line of its own.
+/// Measures with one line per limit.
 pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: &Marks, units: Units) -> String {
     let mut table = Table::new(&[
         (Left, &["injury measure"]),
@@ -53,7 +53,7 @@ pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: 
     table.text()
 }
 
-/// Measures of several runs, a column for each; a value beyond a limit carries a `>`, the least limit is named.
+/// Measures of several runs, one column each; a value beyond a limit has a `>`; the lowest limit is shown.
 pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)], units: Units) -> String {
     let numbers: Vec<String> = (1..=runs.len()).map(|number| number.to_string()).collect();
     let heads: Vec<&str> = numbers.iter().map(String::as_str).collect();
@@ -83,7 +83,7 @@ fn verdict(m: &Measure, limit: &Judgement, units: Units) -> [String; 4] {
         shown(m, limit.most, units),
         limit.rule.to_owned(),
         format!("{:+.0} %", 100.0 * limit.relative_margin),
-        if limit.passed { "met" } else { "EXCEEDED" }.to_owned(),
+        if limit.passed { "passed" } else { "EXCEEDED" }.to_owned(),
     ]
 }
 
@@ -104,7 +104,7 @@ fn unit(m: &Measure, units: Units) -> String {
     }
 }
 
-/// A value of a measure's unit; accelerations in g.
+/// Value in the measure's unit; accelerations in g.
 fn shown(m: &Measure, value: f64, units: Units) -> String {
     let number = |value, decimals| units.number(value, m.unit.symbol(), decimals);
     match m.unit {

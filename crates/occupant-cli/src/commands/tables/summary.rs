@@ -15,14 +15,13 @@ use crate::base::text_table::{NONE, facts, number, table, without_zeros};
 use crate::base::{Units, quoted};
 use occupant_jobs::run::recording::Written;
 
-/// Figures that are not to be quoted as they stand: those that a caveat touches carry a `!`, those that are not stable in an
-/// ensemble a star.
+/// Marks of results that should not be quoted: `!` for those with a caveat, a star for those not stable in an ensemble.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Marks<'a> {
     caveats: &'a [Caveat],
-    /// What stands before the names of figures of one of several occupants.
+    /// Prefix of the names of figures of one of several occupants.
     prefix: &'a str,
-    /// None if no ensemble was run.
+    /// Unstable figures; none without an ensemble.
     unstable: Option<BTreeSet<&'a str>>,
 }
 
@@ -35,18 +34,18 @@ impl<'a> Marks<'a> {
         Marks { unstable: Some(unstable.into_iter().collect()), ..self }
     }
 
-    /// The same for figures of an occupant, before whose names this stands.
+    /// Marks for the figures of an occupant with this name prefix.
     pub(crate) fn of_occupant(&self, prefix: &'a str) -> Self {
         Marks { prefix, ..self.clone() }
     }
 
-    /// Whether a caveat touches the figure.
+    /// Whether a caveat applies to the figure.
     pub(crate) fn spoils(&self, figure: &str) -> bool {
         let figure = format!("{}{figure}", self.prefix);
         self.caveats.iter().any(|caveat| caveat.touches(&figure))
     }
 
-    /// The text of a figure with its marks, or with the room for them, so that columns stay in line.
+    /// Text of a figure with its marks, padded so that columns stay aligned.
     pub(crate) fn put(&self, figure: &str, mut text: String) -> String {
         if !self.caveats.is_empty() {
             text.push(if self.spoils(figure) { '!' } else { ' ' });
@@ -57,7 +56,7 @@ impl<'a> Marks<'a> {
         text
     }
 
-    /// What the marks mean, a line for each caveat; none if nothing is marked.
+    /// Explanation of the marks, one line per caveat; none if nothing is marked.
     pub(crate) fn explained(&self) -> Option<String> {
         let star = self.unstable.iter().filter(|unstable| !unstable.is_empty());
         let star = star.map(|_| "* NOT STABLE under small changes, see below\n".to_owned());
@@ -67,7 +66,7 @@ impl<'a> Marks<'a> {
     }
 }
 
-/// The table: title, accelerations, force elements, first contacts, and how far to trust the run.
+/// The summary: title, accelerations, force elements, first contacts, caveats.
 pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks, units: Units) -> String {
     let mut parts = vec![title(summary), accelerations(summary, marks)];
     parts.extend(elements::texts(&summary.elements, marks, units));
@@ -126,14 +125,14 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
     ]
 }
 
-/// What happened to belts, in order; none if nothing did.
+/// Events in order; none without events.
 fn events(events: &[Event], more: u64) -> Option<String> {
     let rows = events.iter().map(|event| [ms(event.time_s), format!("{} {}", shown(&event.name), event.what)]);
     let rest = if more > 0 { format!("and {more} more events\n") } else { String::new() };
     (!events.is_empty()).then(|| table(&[(Right, &["at, ms"]), (Left, &["event"])], rows) + &rest)
 }
 
-/// Parts whose row is there even if they touched nothing; so are those of all others that a force came on, from the start or later.
+/// Parts with a row even without contact; others get a row only with a contact force.
 const ALWAYS: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
 fn first_contacts(summary: &Summary, marks: &Marks, units: Units) -> String {
@@ -148,7 +147,7 @@ fn first_contacts(summary: &Summary, marks: &Marks, units: Units) -> String {
     table(&[(Left, &["contact", "surface"]), (Right, &heads)], rows)
 }
 
-/// A row for each surface that a part touched; the largest force of the whole run stands in that of the surface that gave it.
+/// One row per surface touched by a part; the peak force of the run is in the row of its surface.
 fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks, units: Units) -> Vec<[String; 8]> {
     let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();
@@ -188,7 +187,7 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks, units: Units)
     touches.into_iter().enumerate().map(row).collect()
 }
 
-/// Surface, time, speed and its part towards the surface; what touches at the start has not arrived.
+/// Surface, time, speed and normal speed of a contact; a contact at the start has no speed.
 fn touch(contact: &ContactBegin, units: Units) -> [String; 4] {
     let [time, speed, closing] = if contact.at_start {
         ["at start", NONE, NONE].map(str::to_owned)

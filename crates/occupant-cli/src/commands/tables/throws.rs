@@ -8,13 +8,13 @@ use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, number, table};
 
-/// Where bodies went that were struck; none if nothing was.
+/// Throw distances of struck bodies; none without any.
 pub(super) fn throws(summary: &Summary, marks: &Marks, units: Units) -> Option<String> {
     let all = summary.throws.iter().map(|(name, throw)| one(name, throw, marks, units));
     (!summary.throws.is_empty()).then(|| all.collect::<Vec<_>>().join("\n"))
 }
 
-/// What left the compartment of a vehicle; none if nothing did.
+/// Ejections from the compartment of a vehicle; none without any.
 pub(super) fn ejections(summary: &Summary, marks: &Marks) -> Option<String> {
     let all = summary.ejections.iter().map(|(name, ejection)| {
         let of = if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() };
@@ -35,7 +35,7 @@ pub(super) fn ejections(summary: &Summary, marks: &Marks) -> Option<String> {
     (!summary.ejections.is_empty()).then(|| all.collect::<Vec<_>>().join("\n"))
 }
 
-/// The words of one throw.
+/// Text of one throw.
 struct Words<'a> {
     marks: Marks<'a>,
     units: Units,
@@ -127,7 +127,7 @@ impl Words<'_> {
     }
 }
 
-/// The angle of a velocity to the horizontal.
+/// Angle of a velocity above the horizontal.
 fn slope(above_deg: f64) -> String {
     format!("{:.1}° {} the horizontal", above_deg.abs(), if above_deg < 0.0 { "below" } else { "above" })
 }

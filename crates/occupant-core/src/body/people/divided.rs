@@ -15,7 +15,7 @@ use crate::body::named::{NamedJoint, NamedLandmarks, tree};
 use crate::body::tti12::TTI12;
 use crate::body::{Body, JointKind, JointPlace, JointSite, SegmentProperties, Side};
 
-/// Names of the parts, and how far their ends are above and below their centre of gravity, inches.
+/// Names of the parts, and distances of their ends above and below their centre of gravity, inches.
 const ENDS: [(&str, [f64; 2]); PARTS] = [
     ("lower_torso", [2.24, 1.52]),
     ("middle_torso", [0.83, 2.25]),
@@ -28,7 +28,7 @@ const ENDS: [(&str, [f64; 2]); PARTS] = [
     ("upper_arm", [5.22, 5.04]),
     ("forearm", [7.08, 9.20]),
 ];
-/// A joint on both of its parts, with X and Z from the centre of gravity of each, inches.
+/// A joint, with X and Z from the centre of gravity of both parts, inches.
 type JointRow = (&'static str, usize, [f64; 2], usize, [f64; 2]);
 const JOINTS: [JointRow; 9] = [
     ("upper_back", CT, [-1.76, 0.83], UT, [-0.32, -6.99]),
@@ -41,16 +41,17 @@ const JOINTS: [JointRow; 9] = [
     ("knee", UL, [-0.23, -9.80], LL, [0.67, 6.91]),
     ("ankle", LL, [0.39, -9.78], F, [-2.76, 1.37]),
 ];
-/// The hand: its share of the mass of forearm and hand (1.08 of 4.05 lb), and how far the wrist and its own centre of
-/// gravity are below that of both, inches. The wrist is where Drillis and Contini's 0.146 and 0.108 of stature meet.
+/// The hand: its share of the mass of forearm and hand (1.08 of 4.05 lb), and distances of the wrist and of its own
+/// centre of gravity below that of both, inches. The wrist is from Drillis and Contini's 0.146 and 0.108 of stature.
 const HAND: (f64, f64, f64) = (0.267, 2.28, 5.77);
-/// A clavicle: its share of the upper torso's mass; its radii of gyration; and X, Y (of the left one) and Z of its centre of gravity
-/// and of its joint from the upper torso's centre of gravity, inches. Its height is that over which it is drawn.
+/// A clavicle: its share of the upper torso's mass; its radii of gyration; and X, Y (of the left one) and Z of its
+/// centre of gravity and of its joint from the upper torso's centre of gravity, inches. Its height is that over which
+/// it is drawn.
 const CLAVICLE: (f64, [f64; 3], [[f64; 3]; 2]) = (0.05, [2.0, 1.5, 2.0], [[-0.8, 4.0, 3.9], [2.0, 0.9, 5.9]]);
 const CLAVICLE_HEIGHT: f64 = 2.0;
 
 impl Stretch {
-    /// The parts, limbs on both sides, as segments and joints of their own.
+    /// The parts, limbs on both sides, as separate segments and joints.
     pub(super) fn divided(&self, division: Division) -> Body {
         let mut made = Made { stretch: self, division, joints: Vec::new(), segments: vec![self.segment(CT, division)] };
         for (name, proximal, from, distal, to) in JOINTS {
@@ -69,18 +70,18 @@ impl Stretch {
         made.body()
     }
 
-    /// Axes of a part along which X and Z of its segment grow: the foot's X axis points up and its Z axis ahead.
+    /// Axes of a part that scale X and Z of its segment: the foot's X axis points up and its Z axis forward.
     const fn axes(part: usize) -> [usize; 2] {
         if part == F { [2, 0] } else { [0, 2] }
     }
 
-    /// Centre of gravity of a part from the lower end of its segment: the foot's is ahead of the ankle.
+    /// Centre of gravity of a part from the lower end of its segment: the foot's is forward of the ankle.
     fn cg_m(&self, part: usize) -> Vector3<f64> {
         let ahead = if part == F { self.along(F, 2, 2.76) } else { 0.0 };
         Vector3::new(ahead, 0.0, self.along(part, Self::axes(part)[1], ENDS[part].1[1]))
     }
 
-    /// A part as a segment, without what is a segment of its own: of forearm and hand the forearm.
+    /// A part as a segment, without sub-parts that are segments of their own: the forearm without the hand.
     fn segment(&self, part: usize, division: Division) -> SegmentProperties {
         if part == LA && division.has_hands() {
             return self.forearm_and_hand()[0];
@@ -89,7 +90,7 @@ impl Stretch {
         if part == UT && division.has_clavicles() { self.without_clavicles(&whole) } else { whole }
     }
 
-    /// A part with all that it is.
+    /// A complete part as a segment.
     fn whole(&self, part: usize) -> SegmentProperties {
         let [above, below] = ENDS[part].1.map(|inches| self.along(part, Self::axes(part)[1], inches));
         let [ix, iy, iz] = self.principal(part);
@@ -102,8 +103,8 @@ impl Stretch {
         }
     }
 
-    /// From X, Y and Z in inches from the upper torso's centre of gravity: from the lower end of the left clavicle, which lies in
-    /// the middle plane, below the shoulders by its height.
+    /// Converts X, Y and Z in inches from the upper torso's centre of gravity to the lower end of the left clavicle,
+    /// which is in the middle plane, below the shoulders by its height.
     fn on_clavicle(&self, inches: [f64; 3]) -> Vector3<f64> {
         let [x, y, z] = [0, 1, 2].map(|axis| self.along(UT, axis, inches[axis]));
         Vector3::new(x, y, z - self.along(UT, 2, ENDS[UT].1[0] - CLAVICLE_HEIGHT))
@@ -121,7 +122,8 @@ impl Stretch {
         }
     }
 
-    /// The upper torso that has with both clavicles the mass, centre of gravity and inertia of the whole.
+    /// The upper torso without clavicles, so that together they have the mass, centre of gravity and inertia of the
+    /// whole.
     fn without_clavicles(&self, whole: &SegmentProperties) -> SegmentProperties {
         let lower_m = Vector3::z() * (whole.length_m - self.along(UT, 2, CLAVICLE_HEIGHT));
         let parts = [Side::Left, Side::Right].map(|side| self.clavicle(Some(side)));
@@ -147,7 +149,8 @@ impl Stretch {
         }
     }
 
-    /// Both keep mass, centre of gravity and inertia of the part that they were, whose inertia they share as m·L².
+    /// Forearm and hand: together they have mass, centre of gravity and inertia of the part, whose inertia is shared in
+    /// proportion to m·L².
     fn forearm_and_hand(&self) -> [SegmentProperties; 2] {
         let z = |inches| self.along(LA, 2, inches);
         let (share, wrist, hand) = HAND;
@@ -176,22 +179,22 @@ impl Stretch {
     }
 }
 
-/// A body of parts under construction.
+/// A body under construction from parts.
 struct Made<'a> {
     stretch: &'a Stretch,
     division: Division,
-    /// Name, kind, proximal and distal segment, place.
+    /// Name, kind, proximal and distal segment, location.
     joints: Vec<(String, JointKind, [String; 2], JointPlace)>,
     segments: Vec<SegmentProperties>,
 }
 
-/// A place of the left side on one.
+/// Mirror image of a location on the left side.
 fn mirrored(mut place: Vector3<f64>, side: Option<Side>) -> Vector3<f64> {
     place.y *= if side == Some(Side::Right) { -1.0 } else { 1.0 };
     place
 }
 
-/// A name of one side.
+/// A name for one side.
 fn on(side: Option<Side>, name: &str) -> String {
     match side {
         None => name.to_owned(),
@@ -201,7 +204,7 @@ fn on(side: Option<Side>, name: &str) -> String {
 }
 
 impl Made<'_> {
-    /// A joint with the segment that it carries.
+    /// Adds a joint with the segment that it carries.
     fn joint(&mut self, name: &str, [proximal, distal]: [usize; 2], mut place: JointPlace, side: Option<Side>) {
         place.proximal.point_m.y = self.stretch.half_width_m(distal);
         place.proximal.point_m = mirrored(place.proximal.point_m, side);

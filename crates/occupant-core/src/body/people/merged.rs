@@ -6,7 +6,7 @@ use super::{CT, F, H, LA, LL, LT, N, REFERENCE, Stretch, UA, UL, UT};
 use crate::body::tti12::TTI12;
 use crate::body::{Body, SegmentProperties};
 
-/// Parts joined rigidly: moments of inertia about the centre of gravity, which lies `z_m` above a datum.
+/// Rigidly joined parts: moments of inertia about the centre of gravity, which is `z_m` above a datum.
 #[derive(Clone, Copy)]
 struct Lump {
     mass_kg: f64,
@@ -15,7 +15,7 @@ struct Lump {
 }
 
 impl Lump {
-    /// With another, whose centre of gravity lies `ahead_m` ahead of this one's.
+    /// Joined with another, whose centre of gravity is `ahead_m` forward of this one's.
     fn with(self, other: Lump, ahead_m: f64) -> Lump {
         let mass_kg = self.mass_kg + other.mass_kg;
         let reduced_kg = self.mass_kg * other.mass_kg / mass_kg;
@@ -35,7 +35,7 @@ impl Lump {
 }
 
 impl Stretch {
-    /// A part with its inertias about axes that the body's 12 segments have; its centre of gravity lies `z_m` above the datum.
+    /// A part with inertias about the axes of the body's 12 segments; its centre of gravity is `z_m` above the datum.
     fn lump(&self, part: usize, z_m: f64) -> Lump {
         let [ix, iy, iz] = self.principal(part);
         let sin2 = libm::sin(REFERENCE[part].2.to_radians()).powi(2);
@@ -43,7 +43,7 @@ impl Stretch {
         Lump { mass_kg: self.mass_kg[part], z_m, inertia_kg_m2 }
     }
 
-    /// The parts become the 12 segments; distances of joints from centres of gravity are the reference's.
+    /// The parts merged to the 12 segments; distances of joints from centres of gravity are the reference's.
     pub(super) fn merged(&self) -> Body {
         let z = |part, inches| self.along(part, 2, inches);
         let x = |part, inches| self.along(part, 0, inches);
@@ -88,7 +88,7 @@ impl Stretch {
         }
     }
 
-    /// The foot: its X axis points up and its Z axis ahead.
+    /// The foot: its X axis points up and its Z axis forward.
     fn foot(&self) -> Lump {
         let foot = self.lump(F, self.along(F, 0, 1.39));
         let [ix, iy, iz] = foot.inertia_kg_m2;

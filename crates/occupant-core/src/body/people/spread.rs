@@ -2,9 +2,9 @@
 
 use super::{CT, F, H, LA, LL, LT, MEASURES, N, PARTS, Person, Sex, UA, UL, UT};
 
-/// Standard errors of the regressions behind the length of each part, mm, of men and of women: of a difference of two
+/// Standard errors of the regressions for the length of each part, mm, of men and of women: for a difference of two
 /// heights both, as if the residuals were independent. The survey's own differences are not published; 0 where a length
-/// is one measure.
+/// is a single measure.
 const ERRORS_MM: [[[f64; 2]; 2]; PARTS] = {
     let trunk = [[10.8, 25.8], [10.5, 23.0]];
     [
@@ -21,7 +21,7 @@ const ERRORS_MM: [[[f64; 2]; 2]; PARTS] = {
     ]
 };
 
-/// The parts that segments are, by their names without a side. A head with a neck is judged as a head.
+/// Parts of the segments, by their names without a side. A head with a neck is treated as a head.
 const NAMES: [(&str, usize); 12] = [
     ("lower_torso", LT),
     ("middle_torso", CT),
@@ -41,8 +41,8 @@ const NAMES: [(&str, usize); 12] = [
 const QUANTILE_95: f64 = 1.645;
 
 impl Person {
-    /// Within which part of its length 90 % of such people are, to both sides: 1.645 standard errors over the measure that
-    /// the segment's length grows with. None for a segment of another name.
+    /// Half width of the 90 % range of such people's lengths, relative to the length: 1.645 standard errors over the
+    /// measure that scales the segment. None for a segment with another name.
     pub fn length_band(&self, segment: &str) -> Option<f64> {
         let side = ["left_", "right_"].iter().find_map(|side| segment.strip_prefix(side));
         let part = NAMES.iter().find(|(name, _)| *name == side.unwrap_or(segment))?.1;

@@ -6,13 +6,13 @@ use crate::body::Body;
 use crate::forces::element::Instant;
 use placed_text::{Problems, with_key};
 
-/// Part of the volume by which what is said may differ from that of the shape.
+/// Largest relative difference of the given volume from that of the shape.
 const MOST_OFF: f64 = 0.3;
-/// Of the volume, how far gas that nothing presses fills a bag that is neither slack nor far too small.
+/// Range of the filling of an unloaded bag, relative to its volume, outside which it is slack or too small.
 const FILLS: [f64; 2] = [0.8, 3.0];
-/// Temperature up to which the specific heats hold, K.
+/// Temperature up to which the specific heats are valid, K.
 const HOTTEST_K: f64 = 1500.0;
-/// Part by which the pressure in a tank may differ from what is said.
+/// Largest relative difference of the tank pressure from the given one.
 const TANK_OFF: f64 = 0.1;
 
 pub(super) fn data(bag: &Bag, body: &Body, problems: &mut Problems) {
@@ -45,7 +45,7 @@ pub(super) fn data(bag: &Bag, body: &Body, problems: &mut Problems) {
     spheres(bag, body, &at("spheres"), problems);
 }
 
-/// Whether the shape is one.
+/// Checks the shape.
 fn shape(shape: &Shape, path: &str, problems: &mut Problems) -> bool {
     let mut wrong = |found: &str, expected: &str| {
         problems.error(path, found, expected);
@@ -129,7 +129,7 @@ fn check_inflator(inflator: &Inflator, path: &str, ambient: [f64; 2], problems: 
     }
 }
 
-/// Gauge pressure in a closed tank of air that loses no heat, Pa.
+/// Gauge pressure in a closed adiabatic tank of air, Pa.
 fn tank_pa(inflator: &Inflator, volume: f64, [p_a, t_a]: [f64; 2]) -> f64 {
     let air_kg = p_a * volume / (Gas::AIR.r_j_kg_k * t_a);
     let [mass, enthalpy] = inflator.given();
@@ -196,7 +196,7 @@ fn spheres(bag: &Bag, body: &Body, path: &str, problems: &mut Problems) {
     }
 }
 
-/// What of the body is where the bag unfolds, when the run begins.
+/// Checks for parts of the body within the unfolded bag at the start of the run.
 pub(super) fn laid(law: &BagLaw<f64>, bag: &Bag, body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
     let caught = law.envelope.caught(at) as u32;
     let within = bag.spheres.iter().enumerate().filter(|(i, _)| caught >> i & 1 == 1);
@@ -213,8 +213,8 @@ pub(super) fn laid(law: &BagLaw<f64>, bag: &Bag, body: &Body, at: &Instant<'_, f
 }
 
 impl Inflator {
-    /// All gas that it gives, kg, and its enthalpy, J: h is a polynomial of the temperature, so that Simpson's rule is exact
-    /// to the third power of time.
+    /// Total gas mass of an inflator, kg, and its enthalpy, J: h is a polynomial of the temperature, so that Simpson's
+    /// rule is exact to the third power of time.
     fn given(&self) -> [f64; 2] {
         let flow = |row: [f64; 3]| [row[1], row[1] * self.gas.enthalpy_j_kg(row[2])];
         let middle = |a: &[f64; 3], b: &[f64; 3]| std::array::from_fn(|i| 0.5 * (a[i] + b[i]));
@@ -228,8 +228,8 @@ impl Inflator {
 }
 
 impl Bag {
-    /// Mass of all gas that comes in, kg, and the volume of it and of the air in the folded bag at the pressure outside, m³, where
-    /// nothing presses it and no heat is lost.
+    /// Total gas mass, kg, and the volume of it and the air in the folded bag at ambient pressure, m³, without load and
+    /// heat loss.
     pub(crate) fn filled(&self) -> [f64; 2] {
         let [p_a, t_a] = self.ambient;
         let air_kg = FOLDED * p_a * self.volume_m3 / (Gas::AIR.r_j_kg_k * t_a);
@@ -248,7 +248,7 @@ impl Bag {
 }
 
 impl Shape {
-    /// Largest area across the way in which it is pressed, m².
+    /// Largest area normal to the direction of compression, m².
     fn cross_section_m2(&self) -> f64 {
         use std::f64::consts::PI;
         match *self {

@@ -7,9 +7,9 @@ use crate::forces::contact::surface::Frame;
 
 /// R_u, J/(mol·K) (exact, SI of 2019).
 pub const GAS_CONSTANT_J_MOL_K: f64 = 8.314_462_618_153_24;
-/// Pressure and temperature of the air around a bag where nobody says otherwise: the standard atmosphere, Pa, and 20 °C, K.
+/// Default pressure and temperature of the air around a bag: the standard atmosphere, Pa, and 20 °C, K.
 pub const AMBIENT: [f64; 2] = [101_325.0, 293.15];
-/// Part of the volume that a folded bag has.
+/// Volume of a folded bag, relative to full.
 pub(crate) const FOLDED: f64 = 0.02;
 
 /// An ideal gas, or a mixture of fixed composition, with c_p = a + bT.
@@ -24,14 +24,14 @@ pub struct Gas {
 }
 
 impl Gas {
-    /// Names of [`Gas::named`].
+    /// Names for [`Gas::named`].
     pub const NAMES: [&'static str; 6] = ["air", "nitrogen", "carbon_dioxide", "water", "helium", "argon"];
 
     /// Dry air: least squares on its ideal-gas table from 300 to 1000 K, to 1.2 %.
     pub const AIR: Gas = Gas { r_j_kg_k: 287.05, a_j_kg_k: 930.4, b_j_kg_k2: 0.2091 };
 
-    /// A gas that everybody knows. Nitrogen, carbon dioxide and steam are least squares on the NASA polynomials from 300 to
-    /// 1000 K, to 1.7, 5.7 and 1.5 %; noble gases have 2.5 R.
+    /// A common gas. Nitrogen, carbon dioxide and steam are least squares on the NASA polynomials from 300 to 1000 K,
+    /// to 1.7, 5.7 and 1.5 %; noble gases have 2.5 R.
     pub fn named(name: &str) -> Option<Gas> {
         let gas = |r_j_kg_k, a_j_kg_k, b_j_kg_k2| Gas { r_j_kg_k, a_j_kg_k, b_j_kg_k2 };
         let noble = |molar_mass: f64| {
@@ -70,48 +70,48 @@ impl Gas {
 pub struct Bag {
     /// Its name.
     pub name: String,
-    /// What it is fixed to.
+    /// Its frame.
     pub frame: Frame,
-    /// Where it is fixed and unfolds from, axes of its frame, m.
+    /// Mounting point, from which it unfolds, axes of its frame, m.
     pub mount_m: Point3<f64>,
     /// Shape when it is full.
     pub shape: Shape,
     /// V_f, m³.
     pub volume_m3: f64,
-    /// When it fires, s; [`NEVER`] if it does not.
+    /// Firing time, s; [`NEVER`] if none.
     pub fires_s: f64,
-    /// t_d, time from then until it is unfolded, s.
+    /// t_d, time from firing until it is fully unfolded, s.
     pub deploy_s: f64,
     /// Pressure, Pa, and temperature, K, around it.
     pub ambient: [f64; 2],
-    /// One, or two stages.
+    /// Inflators: one, or two stages.
     pub inflators: Vec<Inflator>,
     /// Holes.
     pub vents: Vec<Vent>,
-    /// What the fabric lets through.
+    /// Leakage of the fabric.
     pub leakage: Leakage,
-    /// Mass of cover and fabric that it throws ahead of it while it unfolds, kg.
+    /// Mass of cover and fabric thrown forward while it unfolds, kg.
     pub cover_kg: f64,
-    /// Heat that the fabric passes to the air around it, W/(m²·K).
+    /// Heat transfer through the fabric, W/(m²·K).
     pub heat_w_m2_k: f64,
-    /// Friction of bodies on it, and the speed of slip at which it is 71 % of its full size, m/s.
+    /// Friction coefficient of bodies on it.
     pub friction: f64,
-    /// As in a material.
+    /// Sliding speed at which friction is 71 % of its full value, m/s.
     pub friction_speed_m_s: f64,
-    /// Spheres of the body (indices) that it can touch, and by how much their areas are multiplied.
+    /// Indices of spheres that it can touch, and factors on their areas.
     pub spheres: Vec<(usize, f64)>,
 }
 
-/// What blows gas into a bag.
+/// A gas source of a bag.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inflator {
-    /// What it blows.
+    /// Its gas.
     pub gas: Gas,
-    /// When it ignites, s.
+    /// Ignition time, s.
     pub due_s: f64,
-    /// Time since then, s, mass flow, kg/s, and temperature, K; nothing before the first row and behind the last.
+    /// Time since ignition, s, mass flow, kg/s, and temperature, K; no flow before the first row and after the last.
     pub rows: Vec<[f64; 3]>,
-    /// Volume of a tank, m³, and the gauge pressure that it gives in it, Pa: a check of the table.
+    /// Volume of a tank, m³, and gauge pressure measured in it, Pa: a check of the table.
     pub tank: Option<[f64; 2]>,
 }
 
@@ -122,18 +122,18 @@ pub struct Vent {
     pub area_m2: f64,
     /// C_d.
     pub discharge: f64,
-    /// Gauge pressure from which on it is open for good, Pa.
+    /// Gauge pressure that opens it for good, Pa.
     pub opens_at_pa: f64,
-    /// When it opens, s, unless the pressure has opened it before.
+    /// Opening time, s, unless the pressure has opened it before.
     pub due_s: f64,
 }
 
-/// What fabric lets through.
+/// Leakage of the fabric.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Leakage {
-    /// As a vent with this part of the free fabric's area.
+    /// A fraction of the free fabric's area, as a vent.
     Fraction(f64),
-    /// Gauge pressure, Pa, and speed through the fabric, m/s.
+    /// Gauge pressure, Pa, and gas speed through the fabric, m/s.
     Speed(Vec<[f64; 2]>),
 }
 
@@ -153,24 +153,24 @@ pub enum Shape {
         /// e, radius of the edge of the face, m.
         edge_m: f64,
     },
-    /// A ball.
+    /// A sphere.
     Sphere {
-        /// Middle, m.
+        /// Centre, m.
         centre_m: Point3<f64>,
         /// R, m.
         radius_m: f64,
     },
-    /// All that is near a straight line.
+    /// All points within a radius of a straight line.
     Capsule {
         /// Ends of the line, m.
         ends_m: [Point3<f64>; 2],
-        /// How near, m.
+        /// Radius, m.
         radius_m: f64,
     },
 }
 
 impl Bag {
-    /// Times known before the run at which its pressure may have a corner, s.
+    /// Times known before the run at which its pressure may have a kink, s.
     pub(crate) fn breaks_s(&self) -> Vec<f64> {
         let mut list = vec![self.fires_s, self.fires_s + self.deploy_s];
         list.extend(self.inflators.iter().flat_map(|one| one.rows.iter().map(|row| one.due_s + row[0])));

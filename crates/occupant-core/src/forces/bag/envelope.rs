@@ -27,31 +27,31 @@ use crate::motion::vector::V3;
 
 /// X beyond which φ is no longer 1 − X.
 const CROWDED: f64 = 0.8;
-/// Distance from the middle of a ball or capsule over R below which the direction of its force is lost.
+/// Distance from the centre of a ball or capsule, relative to R, below which the direction of its force is undefined.
 const LOST: f64 = 0.1;
 
 /// Constants of an envelope.
 #[derive(Clone, Debug)]
 pub(super) struct EnvelopeLaw<S> {
-    /// Index of what it is fixed to.
+    /// Index of its frame.
     pub(super) frame: usize,
-    /// Where, in the axes of that frame, m.
+    /// Mounting point, axes of that frame, m.
     mount: V3<S>,
     shape: ShapeLaw<S>,
     /// V_f, m³.
     pub(super) volume: S,
-    /// Of the full envelope, m².
+    /// Area of the full envelope, m².
     pub(super) area: S,
     /// Mass of cover and fabric over 3V_f(1 − λ_folded), kg/m³.
     thrown: S,
-    /// Indices of the spheres, and their reach.
+    /// Indices of the spheres, and their area factors.
     pub(super) spheres: Vec<(usize, S)>,
 }
 
 /// An envelope at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Envelope<S> {
-    /// What each sphere does to it.
+    /// Effect of each sphere.
     pub(super) pressed: [Pressed<S>; MOST_SPHERES],
     /// V_free, m³, and its rate, m³/s.
     pub(super) free: S,
@@ -61,21 +61,21 @@ pub(super) struct Envelope<S> {
     /// V, m³, and the area of the union, m².
     pub(super) taken: S,
     pub(super) covered: S,
-    /// The spheres that have reached the mount plane or the middle: the sum of 2^i of their places i.
+    /// Bit set 2^i of the spheres i that have reached the mount plane or the centre.
     pub(super) bottoms: S,
 }
 
-/// What a sphere does to an envelope.
+/// Effect of a sphere on an envelope.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pressed<S> {
-    /// −∂V/∂x, space axes, m²: what a pressure pushes it with.
+    /// −∂V/∂x, space axes, m²: its force per pressure.
     pub(super) push: V3<S>,
-    /// Its part of the area, m², and ∇s, space axes.
+    /// Its share of the area, m², and ∇s, space axes.
     pub(super) area: S,
     pub(super) gradient: V3<S>,
-    /// Force of cover and fabric that are thrown at it, over |∇s|, N.
+    /// Force of cover and fabric thrown at it, over |∇s|, N.
     pub(super) blow: S,
-    /// 1 where it touches and is not held.
+    /// 1 if it touches and is not held.
     pub(super) touches: S,
     /// Depth at which it is held, m.
     pub(super) held: S,
@@ -89,7 +89,7 @@ impl<S: Scalar> Pressed<S> {
     }
 }
 
-/// A sphere that presses nothing.
+/// A sphere without contact.
 #[inline(always)]
 fn no_cap<S: Scalar>() -> Cap<S> {
     let (o, none) = (S::zero(), V3::zero());
@@ -180,7 +180,7 @@ impl<S: Scalar> EnvelopeLaw<S> {
         Envelope { pressed, free: whole * share, growth, crowd, taken: union.volume, covered: union.area, bottoms }
     }
 
-    /// Writes down what a sphere displaces alone, with its reach; 1 where it has reached the mount plane or the middle, and the
+    /// Computes the displacement of a single sphere; 1 where it has reached the mount plane or the centre, and the
     /// depth at which it is held.
     #[inline(always)]
     fn press(
@@ -228,7 +228,7 @@ impl<S: Scalar> EnvelopeLaw<S> {
         [S::select(bottoms, S::one(), o), S::select(touches, holds, o)]
     }
 
-    /// The spheres whose centres are within the full envelope: the sum of 2^i of their places i.
+    /// Bit set 2^i of the spheres i whose centres are within the full envelope.
     #[inline(always)]
     pub(super) fn caught(&self, at: &Instant<'_, S>) -> S {
         let (o, mut sum) = (S::zero(), S::zero());
@@ -239,14 +239,14 @@ impl<S: Scalar> EnvelopeLaw<S> {
         sum
     }
 
-    /// A sphere's centre seen from the mount, in the axes of the frame, m.
+    /// A sphere's centre from the mount, axes of the frame, m.
     #[inline(always)]
     fn seen(&self, at: &Instant<'_, S>, sphere: usize) -> V3<S> {
         at.centre_in(sphere, Use::Bag, self.frame) - self.mount
     }
 }
 
-/// 2^i.
+/// Bit 2^i.
 #[inline(always)]
 fn flag<S: Scalar>(i: usize) -> S {
     S::of(f64::from(1_u32 << i))

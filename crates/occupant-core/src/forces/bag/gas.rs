@@ -19,7 +19,7 @@ pub(super) struct GasLaw<S> {
     b: S,
 }
 
-/// All gas of a bag.
+/// The gas mixture in a bag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mixture<S> {
     /// m, kg.
@@ -57,7 +57,7 @@ impl<S: Scalar> GasLaw<S> {
 }
 
 impl<S: Scalar> Mixture<S> {
-    /// Of masses of these gases with E together, in a bag that has V_free for them.
+    /// Mixture of gas masses with total energy E in a bag with free volume V_free.
     #[inline(always)]
     pub(super) fn new(total: S, ambient: S, free: S, parts: impl Iterator<Item = (GasLaw<S>, S)>) -> Self {
         let o = S::zero();
@@ -103,7 +103,8 @@ impl<S: Scalar> Mixture<S> {
         S::one() + self.mass_r / self.heat
     }
 
-    /// Mass flow through a hole of 1 m² from p to p_a, kg/(s·m²), with Π = p_a/p held above that at which the flow chokes:
+    /// Mass flow through a hole of 1 m² from p to p_a, kg/(s·m²), with Π = p_a/p limited to its critical (choked)
+    /// value:
     ///
     /// ```text
     /// p/√(RT)·√(2γ/(γ − 1)·(Π^(2/γ) − Π^((γ + 1)/γ))),  Π ≥ Π_c = (2/(γ + 1))^(γ/(γ − 1))

@@ -8,7 +8,7 @@ use crate::forces::element::{Instant, passes};
 use crate::forces::function::steps::Steps;
 use crate::motion::scalar::Scalar;
 
-/// Gauge pressure below which the flow through holes is linear in it, Pa: the root's slope at 0 has no bound.
+/// Gauge pressure below which the outflow is linearised, Pa: the square root's slope at 0 is unbounded.
 const LINEAR_PA: f64 = 200.0;
 
 /// Constants of an inflator.
@@ -21,11 +21,11 @@ pub(super) struct InflatorLaw<S> {
     temperature: Steps<S>,
 }
 
-/// Constants of all that lets gas out.
+/// Constants of vents and fabric.
 #[derive(Clone, Debug)]
 pub(super) struct OutletLaw<S> {
     vents: Vec<VentLaw<S>>,
-    /// C_d A of the fabric over its area, and its speed over gauge pressure.
+    /// C_d A of the fabric per area, and its gas speed per gauge pressure.
     part: S,
     speed: Steps<S>,
 }
@@ -100,7 +100,7 @@ impl OutletLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> OutletLaw<S> {
-    /// Where between two memories the first vent was due to open.
+    /// Fraction between two commits at which the first vent was due to open.
     pub(super) fn due(&self, before: &BagPast<S>, now: &BagPast<S>) -> Option<S> {
         let opens = before.open.iter().zip(&now.open).map(|(before, now)| before.lt(*now));
         let vents = self.vents.iter().zip(opens).filter(|(_, opens)| *opens);
@@ -129,7 +129,7 @@ impl<S: Copy> OutletLaw<S> {
 }
 
 impl<S: Scalar> OutletLaw<S> {
-    /// Stores the vents that the gauge pressure opens.
+    /// Opens vents by the gauge pressure.
     #[inline(always)]
     pub(super) fn commit(&self, fired: S::Mask, gauge: S, past: &mut BagPast<S>) {
         for (vent, open) in self.vents.iter().zip(&mut past.open) {
@@ -137,7 +137,7 @@ impl<S: Scalar> OutletLaw<S> {
         }
     }
 
-    /// What flows out, through fabric of this area.
+    /// Outflow, through fabric of this area.
     #[inline(always)]
     pub(super) fn at(
         &self,

@@ -18,7 +18,7 @@ use super::unfold::{UnfoldLaw, Unfolded};
 use crate::forces::element::Instant;
 use crate::motion::scalar::Scalar;
 
-/// Where the numbers stand that a bag owns in a state, from its first on; then the masses of its gases, the air first.
+/// Offsets of a bag's numbers in the state; then the masses of its gases, the air first.
 const ENERGY: usize = 0;
 const PRESSED: usize = 1;
 const WORK: usize = 2;
@@ -28,7 +28,7 @@ const MASSES: usize = 4;
 /// Constants of a bag.
 #[derive(Clone, Debug)]
 pub struct BagLaw<S> {
-    /// Where its numbers stand among those that force elements own.
+    /// Offset of its numbers among those of force elements.
     first: usize,
     pub(super) envelope: EnvelopeLaw<S>,
     unfold: UnfoldLaw<S>,
@@ -75,7 +75,7 @@ impl BagLaw<f64> {
         }
     }
 
-    /// Appends its numbers as they begin: air around it in the folded bag.
+    /// Appends its initial numbers: ambient air in the folded bag.
     pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
         self.first = numbers.len();
         let temperature = self.ambient[1];
@@ -86,7 +86,8 @@ impl BagLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> BagLaw<S> {
-    /// Where between two times it was due to fire or its first vent to open; none if a sphere came to the middle or left.
+    /// Fraction between two times at which it was due to fire, a vent to open, or a sphere to reach or leave the
+    /// centre; none without.
     pub(super) fn due(&self, before: &BagPast<S>, now: &BagPast<S>, times_s: [S; 2]) -> Option<S> {
         let is_held = |depth: &S| depth.gt(S::zero());
         let held = before.held.iter().zip(&now.held).all(|(a, b)| is_held(a) == is_held(b));
@@ -119,46 +120,46 @@ impl<S: Copy> BagLaw<S> {
 }
 
 impl<S: Scalar> BagLaw<S> {
-    /// Whether it has fired, and there is a state of its gas.
+    /// Whether it has fired, and its gas has a state.
     #[inline(always)]
     pub(super) fn acts(&self, at: &Instant<'_, S>) -> bool {
         !at.state.own().is_empty() && S::any(self.unfold.fired(at))
     }
 
-    /// Where its numbers stand.
+    /// Range of its numbers.
     #[inline(always)]
     pub(super) fn numbers(&self) -> std::ops::Range<usize> {
         self.first..self.first + MASSES + 1 + self.inflators.len()
     }
 
-    /// What one of its numbers is 1 of: energies in J, masses in kg.
+    /// Unit sizes of its numbers: energies in J, masses in kg.
     #[inline(always)]
     fn units(&self) -> [S; 2] {
         let energy = self.ambient[0] * self.envelope.volume;
         [energy, energy / (self.air.r * self.ambient[1])]
     }
 
-    /// W, J, and the mass that has flowed out, kg.
+    /// W, J, and the mass vented, kg.
     #[inline(always)]
     pub(super) fn sums(&self, at: &Instant<'_, S>) -> [S; 2] {
         let (own, [energy, mass]) = (&at.state.own()[self.first..], self.units());
         [own[WORK] * energy, own[VENTED] * mass]
     }
 
-    /// Temperature, volume and mass of the gas while it has not fired.
+    /// Temperature, volume and mass of the gas before firing.
     #[inline(always)]
     pub(super) fn folded(&self) -> [S; 3] {
         let [_, mass] = self.units();
         [self.ambient[1], self.envelope.volume * S::of(FOLDED), mass * S::of(FOLDED)]
     }
 
-    /// All its gases, the air first.
+    /// All gases, the air first.
     #[inline(always)]
     fn gases(&self) -> impl Iterator<Item = GasLaw<S>> + '_ {
         [self.air].into_iter().chain(self.inflators.iter().map(|one| one.gas))
     }
 
-    /// The bag from what it remembers.
+    /// The bag at its stored state.
     #[inline(always)]
     pub(super) fn now(&self, at: &Instant<'_, S>, past: &BagPast<S>) -> Now<S> {
         let unfolded = self.unfold.at(at);
@@ -170,7 +171,7 @@ impl<S: Scalar> BagLaw<S> {
         Now { unfolded, envelope, gas }
     }
 
-    /// Stores the spheres that have come to the middle, and the vents that open; where a sphere is held anew or let go.
+    /// Stores the spheres that reached the centre, and opened vents; true where a sphere is newly held or released.
     #[inline(always)]
     pub(super) fn commit(&self, now: &Now<S>, past: &mut BagPast<S>) -> S::Mask {
         let (mut changes, fired) = (S::truth(false), now.unfolded.fired);
@@ -184,7 +185,7 @@ impl<S: Scalar> BagLaw<S> {
         changes
     }
 
-    /// Writes the rates of the numbers that it owns, the body doing work on it at the rate `power`, W.
+    /// Writes the rates of its numbers; `power` is the work rate of the body on it, W.
     #[inline(always)]
     pub(super) fn flow(
         &self,
@@ -217,8 +218,8 @@ impl<S: Scalar> BagLaw<S> {
         Flows { inwards, out }
     }
 
-    /// Writes the rates of the masses of what inflators blow in, of which the part `share` leaves each second; their mass flow,
-    /// kg/s, and the enthalpy that comes with it, W.
+    /// Writes the mass rates of the inflators' gases, of which the fraction `share` leaves per second; their mass flow,
+    /// kg/s, and enthalpy flow, W.
     #[inline(always)]
     fn blow(&self, at: &Instant<'_, S>, share: S, rates: &mut [S]) -> [S; 2] {
         let (own, [_, unit]) = (&at.state.own()[self.first..], self.units());
@@ -233,7 +234,7 @@ impl<S: Scalar> BagLaw<S> {
         sums
     }
 
-    /// Keeps the balance of the gas at an accepted step.
+    /// Updates the gas balance at an accepted step.
     #[inline(always)]
     pub(super) fn keep_balance(&self, at: &Instant<'_, S>, now: &Now<S>, past: &mut BagPast<S>) {
         let (o, gas, [unit, _]) = (S::zero(), &now.gas, self.units());

@@ -33,12 +33,12 @@ pub use past::BagPast;
 use placed_text::Problems;
 pub use results::BagAction;
 
-/// Most spheres of the body that a bag touches.
+/// Largest number of spheres that a bag touches.
 pub(crate) const MOST_SPHERES: usize = 20;
-/// Most vents of a bag.
+/// Largest number of vents of a bag.
 pub(crate) const MOST_VENTS: usize = 4;
 
-/// Place of the work that bags take up.
+/// Index of the work absorbed by bags.
 const WORK: usize = 5;
 
 const OTHER_BAGS: Unlike = Unlike("the bags have other shapes, spheres, vents or rows of their tables");
@@ -141,7 +141,7 @@ impl Element for Bags {
         }
     }
 
-    /// It stores nothing, and so stands in no body's books.
+    /// It has no stored energy in a body's ledger.
     fn segment(_: &Vec<BagLaw<f64>>, _: &[Site<f64>], _: usize, _: &BagAction<f64>) -> usize {
         0
     }
@@ -149,7 +149,7 @@ impl Element for Bags {
     fn stored_j(_actions: &[BagAction<f64>], _stored_j: &mut [f64; STORES]) {}
 }
 
-/// What one bag does.
+/// Action of one bag.
 #[inline(always)]
 fn act<S: Scalar>(
     law: &BagLaw<S>,
@@ -178,7 +178,7 @@ fn act<S: Scalar>(
 struct Pushes<S> {
     /// On its spheres, in their order, space axes, N.
     forces: [V3<S>; MOST_SPHERES],
-    /// That the body does work on it, W.
+    /// Work rate of the body on it, W.
     power: S,
 }
 

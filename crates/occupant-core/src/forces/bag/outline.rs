@@ -9,17 +9,17 @@ use occupant_units::trig::sin_cos;
 
 use crate::forces::shown::Section;
 
-/// Steps of a quarter of a circle.
+/// Segments per quarter circle.
 const QUARTER: usize = 6;
 
-/// Straight pieces of each long side of a capsule.
+/// Straight segments of each long side of a capsule.
 const PIECES: usize = 12;
 
-/// A corner of a section, behind the point within the bag from which it is pressed out.
+/// A corner of a section, and the inner point from which it is projected.
 type Ray = [Point3<f64>; 2];
 
-/// Sections of a bag all of whose lengths are `scale` times the full ones; `place` gives points of its frame, `spheres` what presses
-/// it in, middles and radii, in the axes that are asked.
+/// Sections of a bag scaled by `scale`; `place` converts points of its frame, `spheres` press it in (centres and radii,
+/// in the target axes).
 pub(super) fn sections(
     bag: &Bag,
     scale: f64,
@@ -37,7 +37,7 @@ pub(super) fn sections(
     shape(bag).into_iter().map(section).collect()
 }
 
-/// The part of the way from one point to another that is clear of a sphere.
+/// Fraction of a line between two points that is outside a sphere.
 fn free(from: Point3<f64>, to: Point3<f64>, (centre, radius): &(Point3<f64>, f64)) -> f64 {
     let (way, seen) = (to - from, from - centre);
     let (a, b, c) = (way.norm_squared(), way.dot(&seen), seen.norm_squared() - radius * radius);
@@ -48,7 +48,7 @@ fn free(from: Point3<f64>, to: Point3<f64>, (centre, radius): &(Point3<f64>, f64
     if root < 0.0 || b >= 0.0 { 1.0 } else { (c / (root.sqrt() - b)).min(1.0) }
 }
 
-/// Sections of a full bag that nothing presses, axes of its frame.
+/// Sections of a full unloaded bag, axes of its frame.
 fn shape(bag: &Bag) -> Vec<Vec<Ray>> {
     let mount = bag.mount_m;
     match bag.shape {
@@ -98,7 +98,7 @@ fn shape(bag: &Bag) -> Vec<Vec<Ray>> {
     }
 }
 
-/// Distance from the axis and height of the corners of a dome's section, from its base round its face.
+/// Distance from the axis and height of the corners of a dome's section, from its base around its face.
 fn dome_profile(shape: &Shape) -> Vec<[f64; 2]> {
     let Shape::Dome { depth_m, radius_m, face_radius_m, .. } = *shape else { return Vec::new() };
     let reach = radius_m.min(face_radius_m);
@@ -110,14 +110,14 @@ fn dome_profile(shape: &Shape) -> Vec<[f64; 2]> {
     [[radius_m, 0.0]].into_iter().chain(face).chain([[-radius_m, 0.0]]).collect()
 }
 
-/// Two directions across an axis.
+/// Two directions normal to an axis.
 fn beside(axis: Vector3<f64>) -> [Vector3<f64>; 2] {
     let other = if axis.y.abs() < 0.9 { Vector3::y() } else { Vector3::z() };
     let u = axis.cross(&other).normalize();
     [u, axis.cross(&u)]
 }
 
-/// A circle, each corner above the one of a circle lower by `above`.
+/// A circle, each corner with an inner point lower by `above`.
 fn circle(centre: Point3<f64>, above: Vector3<f64>, [u, v]: [Vector3<f64>; 2], radius: f64) -> Vec<Ray> {
     let corner = |i: usize| {
         let (sine, cosine) = sin_cos(TAU * i as f64 / (4 * QUARTER) as f64);

@@ -3,7 +3,7 @@
 use super::{MOST_SPHERES, MOST_VENTS};
 use crate::motion::scalar::Scalar;
 
-/// What a bag remembers.
+/// Stored state of a bag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BagPast<S> {
     /// 1 once it has fired.
@@ -15,16 +15,16 @@ pub struct BagPast<S> {
     pub(super) pressed: S,
     pub(super) residual: S,
     pub(super) greatest: S,
-    /// The spheres whose centres were within the full envelope when it fired: the sum of 2^i of their places i.
+    /// Bit set 2^i of the spheres i whose centres were within the full envelope when it fired.
     pub(super) caught: S,
-    /// 1 of each vent that the pressure has opened.
+    /// 1 for each vent opened by the pressure.
     pub(super) open: [S; MOST_VENTS],
-    /// Depth at which each sphere is held, m; 0 of one that is not.
+    /// Depth at which each sphere is held, m; 0 if it is not.
     pub(super) held: [S; MOST_SPHERES],
 }
 
 impl<S> BagPast<S> {
-    /// f called with every number and the one in the same place of `other`.
+    /// Calls f with every number and its counterpart in `other`.
     pub(super) fn each<A>(&mut self, other: &mut BagPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
         f(&mut self.fired, &mut other.fired);
         f(&mut self.gauge, &mut other.gauge);
@@ -55,7 +55,7 @@ impl<A: Copy> BagPast<A> {
 }
 
 impl<S: Scalar> BagPast<S> {
-    /// The vents that are open and the spheres that are held, and whether it has fired.
+    /// Open vents, held spheres, and whether it has fired.
     #[inline(always)]
     pub(super) fn switches(&self) -> S {
         let (o, mut bit, mut sum) = (S::zero(), 1.0, S::zero());
@@ -66,7 +66,7 @@ impl<S: Scalar> BagPast<S> {
         sum
     }
 
-    /// Of a bag that has not fired.
+    /// Stored state before firing.
     pub(super) fn none() -> Self {
         let o = S::zero();
         BagPast {

@@ -19,7 +19,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::{Axes, FieldWords, Quantity};
 
-/// What one bag does at one instant.
+/// Action of one bag at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct BagAction<S> {
     /// p − p_a, Pa.
@@ -32,33 +32,33 @@ pub struct BagAction<S> {
     /// From inflators, kg/s.
     inwards: S,
     out: Outflow<S>,
-    /// That has flowed out since the start, kg.
+    /// Mass vented since the start, kg.
     vented: S,
-    /// Of the envelope that spheres cover, m², and that they displace, m³.
+    /// Area of the envelope covered by spheres, m², and volume displaced by them, m³.
     covered: S,
     taken: S,
     /// Work of the body on it since the start, J.
     pub(super) work: S,
-    /// Largest residual of the gas's book over its largest energy.
+    /// Largest residual of the gas balance, relative to its largest energy.
     pub(super) residual: S,
     /// 1 once it has fired, g, and λ.
     pub(crate) fired: S,
     pub(crate) share: S,
     scale: S,
-    /// Vents that the pressure has opened.
+    /// Vents opened by the pressure.
     opened: S,
-    /// The spheres that have reached the mount plane or the middle, and those that were within when it fired: the sum of 2^i
-    /// of their places i.
+    /// Bit sets 2^i of the spheres i that have reached the mount plane or the centre, and of those within when it
+    /// fired.
     pub(crate) bottoms: S,
     pub(crate) caught: S,
-    /// On what it is mounted, vehicle axes, N.
+    /// Force on its mount, vehicle axes, N.
     pub(super) force: V3<S>,
     /// On its spheres, in their order, vehicle axes, N.
     pub(crate) pushes: [V3<S>; MOST_SPHERES],
 }
 
 impl<S: Scalar> BagAction<S> {
-    /// Of a bag that has not fired.
+    /// Action of a bag before firing.
     #[inline(always)]
     pub(super) fn idle(law: &BagLaw<S>) -> Self {
         let (o, none) = (S::zero(), V3::zero());
@@ -123,7 +123,7 @@ impl<S: Scalar> BagAction<S> {
     }
 }
 
-/// λ of a folded bag: the cube root of its part of the volume.
+/// λ of a folded bag: the cube root of its relative volume.
 const FOLDED_SCALE: f64 = 0.271_441_761_659_490_7;
 
 type Of = Quantity<OneOf<Bags>>;
@@ -132,7 +132,7 @@ const fn peak(column: Column) -> Tracked {
     Tracked { column, time: None, at_least_zero: true }
 }
 
-/// With the time at which the peak was first reached, under these names in JSON and among the measures.
+/// With the time of the peak, under these names in JSON and among the measures.
 const fn timed(column: Column, key: &'static str, measure: &'static str) -> Tracked {
     Tracked { time: Some(Column::time(key).measure(measure, Second)), ..peak(column) }
 }
@@ -264,7 +264,7 @@ impl Reported for Bags {
 
     const BY_STEPS: &'static [&'static str] = &[FIRES, OPENS, BOTTOMS, TOUCHED, UNFOLDED, LEFT];
 
-    /// In the order of [`Reported::track`]: how far it is unfolded, whether it is touched, whether it bottoms.
+    /// Events from the order of [`Reported::track`]: unfolding, contact, bottoming out.
     fn told(before: &[f64], now: &[f64], show: &mut dyn FnMut(&'static str)) {
         for (at, from, what) in [(4, 0.0, BOTTOMS), (2, 0.0, TOUCHED), (1, WHOLE, UNFOLDED)] {
             if before[at] <= from && now[at] > from {
@@ -299,11 +299,11 @@ impl Reported for Bags {
     }
 }
 
-const FIRES: &str = "fires";
-const OPENS: &str = "opens a vent";
-const BOTTOMS: &str = "bottoms out at its mount or its middle";
-const TOUCHED: &str = "is touched";
-const UNFOLDED: &str = "is unfolded";
-const LEFT: &str = "is left";
-/// From this part on it is unfolded.
+const FIRES: &str = "bag fires";
+const OPENS: &str = "bag opens a vent";
+const BOTTOMS: &str = "bag bottoms out at its mount or its middle";
+const TOUCHED: &str = "bag is touched";
+const UNFOLDED: &str = "bag is fully unfolded";
+const LEFT: &str = "bag is no longer touched";
+/// Unfolded share from which the bag counts as fully unfolded.
 const WHOLE: f64 = 1.0 - 1e-9;

@@ -14,7 +14,7 @@ use super::data::{Bag, Shape};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// Constants of a shape, in the axes of its frame, seen from the mount.
+/// Constants of a shape, in the axes of its frame, from the mount.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ShapeLaw<S> {
     Dome { axis: V3<S>, depth: S, radius: S, face: S, edge: S },
@@ -22,16 +22,16 @@ pub(super) enum ShapeLaw<S> {
     Capsule { from: V3<S>, along: V3<S>, radius: S },
 }
 
-/// How near a point is.
+/// Distance of a point to the bag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near<S> {
     /// s, m.
     pub(super) distance: S,
     /// ∇s.
     pub(super) gradient: V3<S>,
-    /// Depth of a sphere about the point at which the bag is bottomed, less its own, m; of a dome alone.
+    /// Depth of a sphere around the point at which the bag bottoms out, minus its own, m; dome only.
     pub(super) left: Option<S>,
-    /// Distance from the middle over R, where the direction is lost; of a ball or capsule.
+    /// Distance from the centre relative to R; ball or capsule only.
     pub(super) from_middle: Option<S>,
 }
 
@@ -55,7 +55,7 @@ impl ShapeLaw<f64> {
 }
 
 impl<S: Copy> ShapeLaw<S> {
-    /// Its kind; shapes of one kind can be computed side by side.
+    /// Its kind; shapes of the same kind can be evaluated side by side.
     pub(super) fn kind(&self) -> usize {
         match self {
             ShapeLaw::Dome { .. } => 0,
@@ -93,7 +93,7 @@ impl<S: Copy> ShapeLaw<S> {
 }
 
 impl<S: Scalar> ShapeLaw<S> {
-    /// How near the point `seen` from the mount is, all lengths being `scale` times the full ones.
+    /// Distance of the point `seen` from the mount, with all lengths scaled by `scale`.
     #[inline(always)]
     pub(super) fn near(&self, seen: V3<S>, scale: S) -> Near<S> {
         let seen = seen * (S::one() / scale);
@@ -149,14 +149,14 @@ impl<S: Scalar> ShapeLaw<S> {
     }
 }
 
-/// Near a middle from which the point is `seen`.
+/// Distance to a round shape, from its centre to the point `seen`.
 #[inline(always)]
 fn near_round<S: Scalar>(seen: V3<S>, radius: S) -> Near<S> {
     let far = length(seen);
     Near { distance: far - radius, gradient: seen * (S::one() / far), left: None, from_middle: Some(far / radius) }
 }
 
-/// |v|, kept off 0.
+/// |v|, bounded away from 0.
 #[inline(always)]
 fn length<S: Scalar>(v: V3<S>) -> S {
     (v.norm_squared() + S::of(1e-24)).sqrt()
@@ -199,7 +199,7 @@ pub(super) fn section<S: Scalar>(depth: S, r: S, face: Option<S>) -> [S; 2] {
     [pi * (bb - inner * inner / (S::of(4.0) * dd)), S::select(apart.gt(least), slope, o)]
 }
 
-/// Depth from which on A stays, m.
+/// Depth from which A is constant, m.
 #[inline(always)]
 pub(super) fn full_depth<S: Scalar>(r: S, face: Option<S>) -> S {
     match face {
@@ -208,14 +208,14 @@ pub(super) fn full_depth<S: Scalar>(r: S, face: Option<S>) -> S {
     }
 }
 
-/// Distance of the middles of sphere and face at which A is greatest.
+/// Distance of the centres of sphere and face at which A is largest.
 #[inline(always)]
 fn least_apart<S: Scalar>(r: S, big: S) -> S {
     (big * big - r * r).abs().sqrt().max(S::of(1e-6))
 }
 
 impl Shape {
-    /// What it holds, m³.
+    /// Its volume, m³.
     pub fn volume_m3(&self) -> f64 {
         size(self)[0]
     }

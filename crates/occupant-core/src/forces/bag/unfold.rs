@@ -12,7 +12,7 @@ pub(super) struct UnfoldLaw<S> {
     lasts: S,
 }
 
-/// How far it has unfolded.
+/// State of unfolding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unfolded<S: Scalar> {
     /// Whether it has fired.
@@ -25,7 +25,8 @@ pub(super) struct Unfolded<S: Scalar> {
     pub(super) scale: S,
 }
 
-/// Where it is later than `time`. At that time itself a step that begins there is later, one that ends there is not.
+/// Whether it is later than `time`: at that time itself true for a step that begins there, false for one that ends
+/// there.
 #[inline(always)]
 pub(super) fn later<S: Scalar>(at: &Instant<'_, S>, time: S) -> S::Mask {
     let now = at.frames.time;
@@ -33,7 +34,7 @@ pub(super) fn later<S: Scalar>(at: &Instant<'_, S>, time: S) -> S::Mask {
 }
 
 impl<S: Scalar> UnfoldLaw<S> {
-    /// Where between two times it fires.
+    /// Fraction between two times at which it fires.
     pub(super) fn due(&self, [before, now]: [S; 2]) -> S {
         passes(self.fires, before, now)
     }

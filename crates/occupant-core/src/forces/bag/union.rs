@@ -22,28 +22,28 @@ use super::shape::section;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// Of u in φ: fitted to unions of heads, chests and arms of 3 to 12 spheres, counted point by point. Their areas are met within
-/// 5 % (standard deviation), without a bias.
+/// Coefficient of u in φ: fitted to unions of heads, chests and arms of 3 to 12 spheres, counted point by point. Their
+/// areas agree within 5 % (standard deviation), without bias.
 const CROWD: f64 = 0.6;
-/// Distance beside each other below which two middles have no direction, m.
+/// Lateral distance below which two centres have no direction, m.
 const NEAR_M: f64 = 1e-4;
-/// Spheres of most bags: room for the pairs of all that are possible would be filled with zeros each time.
+/// Number of spheres of most bags, for smaller buffers.
 const FEW: usize = 8;
 
-/// Pairs of so many.
+/// Number of pairs.
 const fn pairs_of(spheres: usize) -> usize {
     spheres * (spheres - 1) / 2
 }
 
-/// What a sphere alone does to an envelope, and in the end what it does among all.
+/// A sphere's effect on an envelope, alone and then in the union.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cap<S> {
-    /// 1 where it touches and is not held.
+    /// 1 if it touches and is not held.
     pub(super) on: S,
     /// δ and its rate, m and m/s.
     pub(super) depth: S,
     pub(super) closing: S,
-    /// Depth from which on its area stays, m.
+    /// Depth from which its area is constant, m.
     pub(super) full: S,
     /// r, m, and its reach.
     pub(super) radius: S,
@@ -55,12 +55,12 @@ pub(super) struct Cap<S> {
     /// s, m, and ∇s.
     pub(super) distance: S,
     pub(super) gradient: V3<S>,
-    /// Its centre and its velocity, seen from the mount, m and m/s.
+    /// Its centre and its velocity, from the mount, m and m/s.
     pub(super) seen: V3<S>,
     pub(super) velocity: V3<S>,
 }
 
-/// What all spheres displace together.
+/// Joint displacement of all spheres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Union<S> {
     /// Of each sphere ∂V/∂δ, m², and ∂V/∂x at that depth, m².
@@ -71,7 +71,7 @@ pub(super) struct Union<S> {
     pub(super) area: S,
 }
 
-/// A pair that has something in common: its places, V_kl, its slopes by both depths, and that by d over d.
+/// An overlapping pair: indices, V_kl, its derivatives by both depths, and that by d over d.
 #[derive(Clone, Copy)]
 struct Pair<S> {
     of: [usize; 2],
@@ -80,7 +80,7 @@ struct Pair<S> {
     by_distance: S,
 }
 
-/// Σ f and Σ f² of a sphere, then φ and its slopes by both.
+/// Σ f and Σ f² of a sphere, then φ and its derivatives by both.
 #[derive(Clone, Copy)]
 struct Share<S> {
     sums: [S; 2],
@@ -88,7 +88,7 @@ struct Share<S> {
     slopes: [S; 2],
 }
 
-/// The union of what these displace behind a face of this radius, none of a flat one.
+/// The union of displacements behind a face of this radius, none for a flat one.
 #[inline(always)]
 pub(super) fn unite<S: Scalar>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
     if caps.len() <= FEW {
@@ -98,7 +98,7 @@ pub(super) fn unite<S: Scalar>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
     }
 }
 
-/// The same with room for so many spheres and pairs.
+/// The same with buffers for this many spheres and pairs.
 #[inline(always)]
 fn unite_of<S: Scalar, const SPHERES: usize, const PAIRS: usize>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
     let o = S::zero();
@@ -133,7 +133,7 @@ fn unite_of<S: Scalar, const SPHERES: usize, const PAIRS: usize>(caps: &[Cap<S>]
     union
 }
 
-/// Writes down the pairs that have something in common, and what each sphere shares; how many there are.
+/// Finds overlapping pairs and the overlap of each sphere; the number of pairs.
 #[inline(always)]
 fn meet<S: Scalar>(caps: &[Cap<S>], face: Option<S>, shares: &mut [Share<S>], pairs: &mut [Pair<S>]) -> usize {
     let (o, mut count) = (S::zero(), 0);
@@ -165,13 +165,13 @@ fn meet<S: Scalar>(caps: &[Cap<S>], face: Option<S>, shares: &mut [Share<S>], pa
 }
 
 impl<S: Scalar> Cap<S> {
-    /// Radius of its disc, kept off 0, m.
+    /// Radius of its disc, bounded away from 0, m.
     #[inline(always)]
     fn wide(&self) -> S {
         wide(self.area)
     }
 
-    /// Area of its section at the depth z, and its slope by the depth that is left.
+    /// Area of its section at the depth z, and its derivative by the remaining depth.
     #[inline(always)]
     fn below(&self, z: S, face: Option<S>) -> [S; 2] {
         let [area, slope] = section((self.depth - z).max(S::zero()), self.radius, face);
@@ -180,7 +180,7 @@ impl<S: Scalar> Cap<S> {
 }
 
 impl<S: Scalar> Share<S> {
-    /// φ and its slopes.
+    /// φ and its derivatives.
     #[inline(always)]
     fn settle(&mut self) {
         let (one, half, [first, second]) = (S::one(), S::of(0.5), self.sums);
@@ -192,7 +192,7 @@ impl<S: Scalar> Share<S> {
         self.slopes = [n * (half * root + v * slope * first) - n * self.part, -(n * half * (root + v * slope))];
     }
 
-    /// The slope of V_k φ by what it has in common with one that it shares the part f of it with.
+    /// Derivative of V_k φ by its overlap with one that it shares the fraction f with.
     #[inline(always)]
     fn by_common(&self, f: S) -> S {
         self.slopes[0] + f * (self.slopes[1] + self.slopes[1])
@@ -200,7 +200,7 @@ impl<S: Scalar> Share<S> {
 }
 
 impl<S: Scalar> Union<S> {
-    /// Adds what a pair does, whose common volume has this slope.
+    /// Adds the effect of a pair, whose overlap has this derivative.
     #[inline(always)]
     fn bear(&mut self, one: &Cap<S>, two: &Cap<S>, pair: &Pair<S>, weight: S) {
         let (aside, [k, l]) = (weight * pair.by_distance, pair.of);
@@ -216,7 +216,7 @@ impl<S: Scalar> Union<S> {
     }
 }
 
-/// V_kl and its slopes by both depths and by d.
+/// V_kl and its derivatives by both depths and by d.
 #[inline(always)]
 fn common<S: Scalar>(one: &Cap<S>, two: &Cap<S>, face: Option<S>, d: S) -> [S; 4] {
     let (o, half, sixth) = (S::zero(), S::of(0.5), S::of(1.0 / 6.0));
@@ -241,20 +241,20 @@ fn common<S: Scalar>(one: &Cap<S>, two: &Cap<S>, face: Option<S>, d: S) -> [S; 4
     [above * upper_lens + below * lower_lens, by_one, by_two, above * by_d + below * lower_by_d]
 }
 
-/// 1 where a is less than b, 0 where it is more, a half where they are equal.
+/// 1 if a < b, 0 if a > b, ½ if equal.
 #[inline(always)]
 fn lesser<S: Scalar>(a: S, b: S) -> S {
     S::select(a.lt(b), S::one(), S::select(b.lt(a), S::zero(), S::of(0.5)))
 }
 
-/// Radius of a disc of this area, kept off 0.
+/// Radius of a disc of this area, bounded away from 0.
 #[inline(always)]
 fn wide<S: Scalar>(area: S) -> S {
     (area.max(S::of(1e-18)) * S::of(std::f64::consts::FRAC_1_PI)).sqrt()
 }
 
-/// Area that two discs have in common whose middles are d apart, its slope by d, and those by both areas: the parts of their
-/// circles that lie within the other.
+/// Overlap area of two discs with distance d, its derivative by d, and those by both areas: the fractions of their
+/// circles inside the other.
 #[inline(always)]
 pub(super) fn lens<S: Scalar>(d: S, areas: [S; 2]) -> [S; 4] {
     let (one, pi) = (S::one(), S::of(std::f64::consts::FRAC_1_PI));

@@ -24,7 +24,7 @@ pub(super) fn data(belts: &[Belt], body: &Body, problems: &mut Problems) {
     }
 }
 
-/// A belt as it lies at the start, among the spheres of the body with these centres, vehicle axes.
+/// Checks a belt in its initial position, among the spheres of the body with these centres, vehicle axes.
 pub(super) fn laid(law: &BeltLaw<f64>, belt: &Belt, body: &Body, centres: &[V3<f64>], problems: &mut Problems) {
     let path = format!("belts.{}", belt.name);
     for (i, anchor) in belt.anchors_m.iter().enumerate() {
@@ -60,12 +60,12 @@ pub(super) fn laid(law: &BeltLaw<f64>, belt: &Belt, body: &Body, centres: &[V3<f
     }
 }
 
-/// More slack than any belt is worn with, m.
+/// Largest plausible slack, m.
 const LOOSE_M: f64 = 0.2;
-/// More than any belt pulls when it is put on, N; retractors pull 5 to 20.
+/// Largest plausible initial tension, N; retractors pull 5 to 20.
 const TIGHT_N: f64 = 500.0;
 
-/// Warns of a belt that is too long or too short for the body, such as one whose length was that of another body.
+/// Warns of a belt too long or too short for the body, such as one with a length for another body.
 fn fits(law: &BeltLaw<f64>, belt: &Belt, centre: V3<f64>, path: &str, problems: &mut Problems) {
     let action = law.act(centre, &law.initial_history(centre));
     let key = if matches!(belt.rest, RestLength::Given { .. }) { "length" } else { "slack" };
@@ -85,8 +85,8 @@ fn fits(law: &BeltLaw<f64>, belt: &Belt, centre: V3<f64>, path: &str, problems: 
     problems.push(Problem::warning(format!("{path}.{key}"), found, expected).with_hint(Some(hint)));
 }
 
-/// Warns of a belt that does not go across the body, and of one round the pelvis that would not stay there: from the pelvis
-/// to its anchors a lap belt goes back and down, 20° to 80° from the level.
+/// Warns of a belt that does not cross the body, and of one around the pelvis that would not stay there: from the
+/// pelvis to its anchors a lap belt runs back and down, at 20° to 80°.
 fn holds(belt: &Belt, body: &Body, centre: Vector3<f64>, path: &str, problems: &mut Problems) {
     let to_anchors = belt.anchors_m.map(|anchor| anchor.coords - centre);
     let mut warn = |found: String, expected: &str, hint: &str| {

@@ -33,7 +33,7 @@ pub(super) fn course_m(
     points
 }
 
-/// Where the free length from `anchor` along −`free` meets the sphere.
+/// Tangent point on the sphere of the free length from `anchor` along −`free`.
 fn tangent_point(anchor: Point3<f64>, centre: Point3<f64>, radius_m: f64, free: Vector3<f64>) -> Point3<f64> {
     let square = (anchor - centre).norm_squared() - radius_m * radius_m;
     anchor - free * square.max(0.0).sqrt()

@@ -18,7 +18,7 @@ use crate::motion::vector::V3;
 pub struct BeltLaw<S> {
     /// Index of the sphere.
     pub sphere: usize,
-    /// What the anchors are fixed to, among the frames.
+    /// Index of the anchors' frame.
     pub frame: usize,
     anchors: [V3<S>; 2],
     radius: S,
@@ -27,12 +27,12 @@ pub struct BeltLaw<S> {
     webbing: Spring<S>,
 }
 
-/// What a belt remembers between steps.
+/// Stored state of a belt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeltHistory<S> {
-    /// Normal of the belt's plane, vehicle axes; keeps its sense when the centre crosses the anchors' line.
+    /// Normal of the belt's plane, vehicle axes; it keeps its sense when the centre crosses the anchors' line.
     pub normal: V3<S>,
-    /// Largest elongation of the run, m.
+    /// Largest elongation so far, m.
     pub greatest: S,
 }
 
@@ -58,7 +58,7 @@ pub struct BeltAction<S> {
 }
 
 impl<S: Copy> BeltLaw<S> {
-    /// f applied to every number and the one in the same place of `other`, which goes round the same sphere.
+    /// f applied to every number and its counterpart in `other`, which goes around the same sphere.
     pub(crate) fn zip<A: Copy, T>(&self, other: &BeltLaw<A>, f: &impl Fn(S, A) -> T) -> BeltLaw<T> {
         BeltLaw {
             sphere: self.sphere,
@@ -84,7 +84,7 @@ impl<S: Scalar> BeltLaw<S> {
         }
     }
 
-    /// The normal of the plane through the anchors and `centre` for which θ₃ lies in (0, π).
+    /// The initial normal of the plane through the anchors and `centre`, for which θ₃ is in (0, π).
     pub fn initial_history(&self, centre: V3<S>) -> BeltHistory<S> {
         let normal = (self.anchors[0] - centre).cross(self.anchors[1] - centre);
         BeltHistory { normal: unit(normal), greatest: S::zero() }
@@ -143,7 +143,7 @@ impl<S: Scalar> BeltLaw<S> {
 }
 
 impl BeltLaw<f64> {
-    /// The belt laid round a sphere whose centre is at `centre` (vehicle axes), which resolves its unstretched length.
+    /// The belt around a sphere with its centre at `centre` (vehicle axes), which determines its unstretched length.
     pub fn laid(belt: &Belt, radius_m: f64, centre: V3<f64>) -> Self {
         let mut law = BeltLaw::new(belt, radius_m, 0.0);
         let length = law.act(centre, &law.initial_history(centre)).length;
@@ -179,7 +179,7 @@ impl<S: Scalar> Side<S> {
     }
 }
 
-/// v/|v|, or v where it vanishes.
+/// v/|v|; v if it is zero.
 #[inline(always)]
 fn unit<S: Scalar>(v: V3<S>) -> V3<S> {
     v * (S::one() / v.norm_squared().max(S::of(1e-60)).sqrt())

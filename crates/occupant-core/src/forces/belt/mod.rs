@@ -23,13 +23,13 @@ use crate::quantity::energy;
 use law::{BeltAction, BeltHistory, BeltLaw};
 use placed_text::Problems;
 
-/// Place of the work put into belts, stored and dissipated.
+/// Index of the work done on belts, stored and dissipated.
 pub const STRETCH: usize = 3;
 
-/// Other belts, or belts round other spheres.
+/// Different belts, or belts around different spheres.
 pub(crate) const OTHER_BELTS: Unlike = Unlike("the belts differ or go round other spheres");
 
-/// How the unstretched length L₀ is given.
+/// Definition of the unstretched length L₀.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RestLength {
     /// L₀ = length at the start + slack; negative slack is preload.
@@ -56,9 +56,9 @@ impl Default for RestLength {
 pub struct Belt {
     /// Unique name, e.g. `lap`, `torso`.
     pub name: String,
-    /// Index of the sphere that it loops round: pelvis for a lap belt, chest for a torso belt.
+    /// Index of its sphere: pelvis for a lap belt, chest for a torso belt.
     pub sphere: usize,
-    /// What the anchors are fixed to.
+    /// Frame of the anchors.
     pub frame: Frame,
     /// Anchor points, axes of the frame.
     pub anchors_m: [Point3<f64>; 2],
@@ -69,7 +69,7 @@ pub struct Belt {
 }
 
 impl Belt {
-    /// A belt without slack round the sphere `sphere` (index), from anchor to anchor (vehicle axes).
+    /// A belt without slack around sphere `sphere` (index), from anchor to anchor (vehicle axes).
     pub fn new(name: impl Into<String>, sphere: usize, anchors_m: [Point3<f64>; 2], webbing: BilinearSpring) -> Self {
         Belt { name: name.into(), sphere, frame: Frame::Vehicle, anchors_m, webbing, rest: RestLength::default() }
     }
@@ -156,7 +156,7 @@ impl Element for Belts {
         BeltHistory { normal: v3(f(n.x), f(n.y), f(n.z)), greatest: f(past.greatest) }
     }
 
-    /// The forces act at the spheres' centres.
+    /// Applies the forces at the spheres' centres.
     #[inline(always)]
     fn apply<S: Scalar>(
         law: &Vec<BeltLaw<S>>,
@@ -188,7 +188,7 @@ impl Element for Belts {
         }
     }
 
-    /// Loop stiffness against the mass that the sum of the two free lengths' directions moves.
+    /// Loop stiffness and the effective mass along the sum of the two free lengths' directions.
     fn rates(
         data: &[Belt],
         body: &Body,

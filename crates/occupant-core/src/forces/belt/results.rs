@@ -122,7 +122,7 @@ impl Reported for Belts {
         }
     }
 
-    /// The force jumps only where a belt that pulls slips off the body.
+    /// The force jumps only where a loaded belt slips off the body.
     fn event<S: Scalar>(before: &BeltAction<S>, now: &BeltAction<S>) -> Option<(&'static str, Option<S>)> {
         let is_positive = |x: S| S::any(x.gt(S::zero()));
         match (is_positive(before.loop_force), is_positive(now.loop_force)) {

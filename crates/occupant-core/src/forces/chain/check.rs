@@ -11,11 +11,12 @@ use crate::forces::plate;
 use nalgebra::Vector3;
 use placed_text::{Problem, Problems, with_key};
 
-/// Cosines of the angles between planes of neighbouring spheres that are refused and warned of: 45° and 15°.
+/// Cosines of the angles between planes of neighbouring spheres above which a belt is refused or warned of: 45° and
+/// 15°.
 const TURNED: [f64; 2] = [std::f64::consts::FRAC_1_SQRT_2, 0.965_925_826_289_068_3];
-/// Shortest strap that is not warned of, m.
+/// Shortest strap without a warning, m.
 const SHORT_M: f64 = 0.05;
-/// Largest friction and tension at the start that are not warned of.
+/// Largest friction and initial tension without a warning.
 const MOST_FRICTION: f64 = 0.6;
 const MOST_START_N: f64 = 100.0;
 
@@ -106,7 +107,7 @@ fn one(node: &Node, body: &Body, at: &str, problems: &mut Problems) {
     }
 }
 
-/// Whether a point of a segment (index) can ride so.
+/// Checks that a point of a segment (index) can ride on these plates.
 fn rides(segment: usize, shares: &Shares, path: &str, body: &Body, problems: &mut Problems) {
     if segment >= body.segments.len() {
         problems.error(path, "a point of no segment", "a segment of the body");
@@ -140,7 +141,7 @@ fn check_stroke(stroke: &Stroke, at: &str, problems: &mut Problems) {
     problems.check_positive(&format!("{path}.stall_force"), stroke.stall_n, "N");
 }
 
-/// A table that begins at (0, 0) and whose values do not fall.
+/// A table that begins at (0, 0) with nondecreasing values.
 fn table(rows: &[[f64; 2]], path: &str, problems: &mut Problems) {
     if rows.len() < 2 || rows[0] != [0.0, 0.0] {
         problems.error(path, "a table that does not begin with 0, 0", "two rows or more from time 0 and 0 on");
@@ -205,7 +206,7 @@ fn device(chain: &Chain, path: &str, problems: &mut Problems) {
     }
 }
 
-/// When something is set off: a time, [`NEVER`] if it is not known, or what is watched.
+/// Checks a cue: a time, [`NEVER`] if unknown, or a watched quantity.
 fn cue(cue: &Cue, path: &str, problems: &mut Problems) {
     let watched = cue.watch.iter().flat_map(|watch| [watch.threshold, watch.lasting_s, watch.delay_s]);
     if let Some(number) = [cue.due_s].into_iter().chain(watched).find(|number| !number.is_finite()) {
@@ -213,7 +214,7 @@ fn cue(cue: &Cue, path: &str, problems: &mut Problems) {
     }
 }
 
-/// Belts as they lie at the start.
+/// Belts in their initial position.
 pub(super) fn laid(
     law: &[ChainLaw<f64>],
     data: &[Chain],
@@ -259,7 +260,7 @@ pub(super) fn laid(
     }
 }
 
-/// Spheres beside each other whose planes turn: the length is then that of neither, and none on either side of the webbing.
+/// Neighbouring spheres with different planes: the length is then ambiguous, and neither may be on the webbing's side.
 fn planes(chain: &Chain, past: &ChainPast<f64>, k: usize, lies: &Lies<f64>, problems: &mut Problems, path: &str) {
     let is_sphere = |k: usize| chain.nodes.get(k).is_some_and(|node| matches!(node.site, Site::Sphere(_)));
     let is_on = |k: usize| is_sphere(k) && past.nodes[k].on > 0.0;
@@ -279,10 +280,10 @@ fn degrees(cosine: f64) -> f64 {
     occupant_units::trig::acos(cosine.clamp(-1.0, 1.0)).to_degrees()
 }
 
-/// From the pelvis to its anchors a lap part goes back and down, at this angle below the level, °: a flatter one slides up to the belly.
+/// Least slope of a lap part from the pelvis back and down to its anchors, °: a flatter one slides up to the abdomen.
 const LEAST_SLOPE_DEG: f64 = 30.0;
 
-/// A lap part that would not stay on the pelvis: webbing is led round a sphere, and cannot slide up from it.
+/// Warns of a lap part that would not stay on the pelvis: webbing around a sphere cannot slide up from it.
 fn slope(
     chain: &Chain,
     body: &Body,
@@ -317,7 +318,7 @@ fn slope(
     }
 }
 
-/// A node that lies inside the sphere beside it.
+/// A node inside the neighbouring sphere.
 fn inside(
     law: &ChainLaw<f64>,
     chain: &Chain,

@@ -4,19 +4,19 @@ use super::data::{Cue, NEVER, Watched};
 use crate::forces::element::passes;
 use crate::motion::scalar::Scalar;
 
-/// Constants of a cue.
+/// Constants of a trigger condition.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CueLaw<S> {
     pub(super) due: S,
     watch: Option<(Watched, [S; 3])>,
 }
 
-/// What a cue and its belt remember of a commit.
+/// Stored quantities of a trigger condition and its belt at a commit.
 pub(super) struct Cued<S> {
     pub(super) time_s: S,
     pub(super) due_s: S,
     pub(super) since_s: S,
-    /// In the order of [`Watched`]; an acceleration is not remembered.
+    /// In the order of [`Watched`]; an acceleration is not stored.
     pub(super) seen: [Option<S>; 4],
 }
 
@@ -27,8 +27,8 @@ impl CueLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> CueLaw<S> {
-    /// Where between two commits its condition was due to begin to hold, or to have held for long enough; none if neither
-    /// happened or where it cannot be told.
+    /// Fraction between two commits at which its condition began to hold, or had held for long enough; none if neither,
+    /// or if unknown.
     pub(super) fn due(&self, before: &Cued<S>, now: &Cued<S>) -> Option<S> {
         let (of, [threshold, lasting, _]) = self.watch?;
         let is = |time_s: S| time_s.lt(S::of(NEVER));
@@ -43,7 +43,7 @@ impl<S: Scalar<Mask = bool>> CueLaw<S> {
 }
 
 impl<S: Copy> CueLaw<S> {
-    /// What it watches; cues that watch the same can be computed side by side.
+    /// Index of the watched quantity; conditions on the same quantity can be evaluated side by side.
     pub(super) fn watched(&self) -> Option<usize> {
         self.watch.map(|(of, _)| of as usize)
     }
@@ -61,7 +61,7 @@ impl<S: Scalar> CueLaw<S> {
         CueLaw { due: S::of(cue.due_s), watch }
     }
 
-    /// When it is due and since when its condition holds; `seen` are the quantities in the order of [`Watched`].
+    /// Due time, and time since when its condition holds; `seen` are the quantities in the order of [`Watched`].
     #[inline(always)]
     pub(super) fn commit(&self, time: S, seen: &[S; 4], due: &mut S, since: &mut S) {
         let Some((of, [threshold, lasting, delay])) = self.watch else { return };

@@ -16,16 +16,16 @@ use crate::forces::element::passes;
 use crate::forces::function::{Function, FunctionLaw};
 use crate::motion::scalar::Scalar;
 
-/// Time constant of the average that the acceleration of webbing is measured against, s.
+/// Time constant of the average from which webbing acceleration is computed, s.
 const SENSOR_S: f64 = 5e-3;
 
-/// Speed at which a limiter goes back, m/s: no rounding is as fast.
+/// Speed at which a limiter counts as unloading, m/s: above rounding errors.
 const BACK_M_S: f64 = 1e-4;
 
-/// Halvings that leave nothing of an interval.
+/// Bisections that resolve an interval fully.
 const HALVES: u32 = 54;
 
-/// Phases of the first node. Those of spools alone: open, locking, pulled in; what stands fast is locked.
+/// Phases of the first node. For spools only: open, locking, pulled in; a fixed one is locked.
 pub(super) struct Phase;
 
 impl Phase {
@@ -42,7 +42,7 @@ pub(super) struct DeviceLaw<S> {
     pub(super) second: Option<(FunctionLaw<S>, CueLaw<S>, S)>,
     pub(super) reel: Option<ReelLaw<S>>,
     release: CueLaw<S>,
-    /// Forces at which the limiters yield; [`NEVER`] of what does not.
+    /// Yield forces of the limiters; [`NEVER`] if they do not yield.
     levels: [S; 2],
 }
 
@@ -58,14 +58,14 @@ impl DeviceLaw<f64> {
         }
     }
 
-    /// What has gone beyond the end of its curve, as text.
+    /// Reports a curve that was exceeded.
     pub(super) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
         let laws = self.limiter.iter().chain(self.second.iter().map(|second| &second.0));
         laws.filter_map(|law| law.overrun(of, greatest, |way| format!("{:.1} mm", 1e3 * way))).next()
     }
 }
 
-/// A commit of a device: what it remembers, what its node does, and the tension of the first strap.
+/// A commit of a device: its stored state, its node's action, and the tension of the first strap.
 #[derive(Clone, Copy)]
 pub(super) struct Moment<'a, S> {
     pub(super) past: &'a DevicePast<S>,
@@ -80,14 +80,14 @@ impl<S: Copy> Moment<'_, S> {
 }
 
 impl DeviceLaw<f64> {
-    /// Whether there is a spool or a limiter, or anything that a cue sets off.
+    /// Whether it has a spool, a limiter, or a trigger.
     pub(super) fn can_switch(&self) -> bool {
         self.reel.is_some() || self.limiter.is_some() || self.release.can_fire()
     }
 }
 
 impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
-    /// Where between two commits the first switch was due.
+    /// Fraction between two commits at which the first switch was due.
     pub(super) fn due(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
         let (a, b) = (before.past, now.past);
         let at = |due: S| (!b.time.lt(due)).then(|| passes(due, a.time, b.time));
@@ -122,8 +122,8 @@ impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
 }
 
 impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
-    /// Where between two commits the second limiter was due to begin or to end to take over; the step behind that, or behind a
-    /// lock, tells at once how the payout continues.
+    /// Fraction between two commits at which the second limiter began or ended to take over; the step after that, or
+    /// after a lock, determines how the payout continues.
     fn takes_over(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
         match [before, now].map(|of| of.first.pays_anew()) {
             [true, false] => Some(S::zero()),
@@ -137,7 +137,7 @@ impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
         }
     }
 
-    /// Where between two commits the limiter was due to go back, or to load again.
+    /// Fraction between two commits at which the limiter began to unload, or to reload.
     fn turns(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
         match [before, now].map(|of| of.first.goes_back()) {
             [false, true] => Some(passes(S::of(BACK_M_S), -before.past.speed, -now.past.speed)),
@@ -148,7 +148,7 @@ impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
 }
 
 impl<S: Copy> DeviceLaw<S> {
-    /// What must be equal for two to be computed side by side.
+    /// Structure that must be equal for side-by-side evaluation.
     pub(super) fn shape(&self) -> Vec<Option<usize>> {
         let mut list = vec![
             self.limiter.as_ref().map(FunctionLaw::len),
@@ -179,7 +179,7 @@ impl<S: Scalar> DeviceLaw<S> {
         self.reel.as_ref().map(|reel| reel.tension)
     }
 
-    /// What it remembers at the start, where the first strap has this tension.
+    /// Initial stored state for this tension of the first strap.
     pub(super) fn start(&self, time: S, tension: S) -> DevicePast<S> {
         let never = S::of(NEVER);
         let mut past = DevicePast { time, solution: tension, phase: S::of(Phase::LOCKED), ..DevicePast::none() };
@@ -204,15 +204,15 @@ impl<S: Scalar> DeviceLaw<S> {
         ((time - past.switch_due) / *over).clamp01()
     }
 
-    /// The force at which the limiter yields: webbing is paid out at it whatever pulls.
+    /// Yield force of the limiter: webbing is paid out at it under any load.
     #[inline(always)]
     fn level(&self, share: S) -> S {
         let [first, second] = self.levels;
         if self.second.is_some() { first + (second - first) * share } else { first }
     }
 
-    /// The limiter takes over in some lanes, with the tension and the payout that there are: T₀ = Q(δ₀), p_L = p − δ₀. With
-    /// a tension above its level it begins to yield.
+    /// Limiter takes over in some lanes, at the present tension and payout: T₀ = Q(δ₀), p_L = p − δ₀. If the tension is
+    /// above its level it begins to yield.
     #[inline(always)]
     fn lock(&self, locks: S::Mask, share: S, tension: S, payout: S, past: &mut DevicePast<S>) {
         past.phase = S::select(locks, S::of(Phase::LOCKED), past.phase);
@@ -231,7 +231,7 @@ impl<S: Scalar> DeviceLaw<S> {
         }
     }
 
-    /// δ at which both limiters together have this tension, between those at which each has it.
+    /// δ at which both limiters together have this tension, between the δ of each.
     #[inline(always)]
     fn reach(&self, share: S, tension: S, [a, b]: [S; 2], greatest: S) -> S {
         let (mut low, mut high) = (a.min(b), a.max(b));
@@ -246,7 +246,7 @@ impl<S: Scalar> DeviceLaw<S> {
         high + S::select(slope.gt(S::zero()), (rest - rest.value_alone()) / slope.value_alone(), S::zero())
     }
 
-    /// Force of the limiters and its slope at δ.
+    /// Force of the limiters and its derivative at δ.
     #[inline(always)]
     pub(super) fn limit(&self, delta: S, greatest: S, share: S) -> [S; 2] {
         let Some(limiter) = &self.limiter else { return [S::zero(); 2] };
@@ -259,7 +259,7 @@ impl<S: Scalar> DeviceLaw<S> {
         [q.force, q.slope]
     }
 
-    /// How the first strap is fed at a time; `payout` is that of the last commit.
+    /// Feed of the first strap at a time; `payout` is that of the last commit.
     #[inline(always)]
     pub(super) fn feed(&self, time: S, past: &DevicePast<S>, payout: S) -> Feed<'_, S> {
         let o = S::zero();
@@ -301,8 +301,8 @@ impl<S: Scalar> DeviceLaw<S> {
         }
     }
 
-    /// A pretensioner that pulls by force takes webbing in only, and not faster than it can: where webbing passed since the
-    /// last commit is outside, how much passes instead.
+    /// Limits a pretensioner given by force: it only pulls in, at most at its largest speed; elsewhere, the amount
+    /// passed instead since the last commit.
     #[inline(always)]
     pub(super) fn bounded(&self, feed: &Feed<'_, S>, past: &DevicePast<S>, time: S, passed: S) -> Option<(S::Mask, S)> {
         let speed = self.reel.as_ref()?.pull.as_ref()?.by_force?;
@@ -311,7 +311,7 @@ impl<S: Scalar> DeviceLaw<S> {
         Some((is_pulling & (bound.lt(passed) | passed.lt(bound)), bound))
     }
 
-    /// Phases at an accepted step, with the tension of the first strap and the payout now and before.
+    /// Phases at an accepted step, from the tension of the first strap and the payout now and before.
     #[inline(always)]
     pub(super) fn commit(
         &self,
@@ -353,7 +353,7 @@ impl<S: Scalar> DeviceLaw<S> {
         }
     }
 
-    /// The limiter at an accepted step.
+    /// Updates the limiter at an accepted step.
     #[inline(always)]
     fn follow(&self, payout: S, past: &mut DevicePast<S>, first: &mut NodePast<S>) {
         if self.limiter.is_none() {

@@ -3,7 +3,7 @@
 use super::device::DeviceLaw;
 use crate::motion::scalar::Scalar;
 
-/// How tension and webbing fed at the first node follow from x.
+/// Tension and feed at the first node as functions of x.
 pub(super) struct Feed<'a, S: Scalar> {
     pub(super) law: &'a DeviceLaw<S>,
     /// Where x is Δp, and where it is δ; elsewhere it is T₀.
@@ -11,7 +11,7 @@ pub(super) struct Feed<'a, S: Scalar> {
     pub(super) is_limited: S::Mask,
     pub(super) tension: S,
     pub(super) passed: S,
-    /// p_L less the payout of the last commit.
+    /// p_L minus the payout of the last commit.
     pub(super) base: S,
     pub(super) greatest: S,
     /// Share of the second limiter.
@@ -27,13 +27,13 @@ pub(super) struct Fed<S> {
 }
 
 impl<S: Scalar> Feed<'_, S> {
-    /// The same with Δp given in some lanes.
+    /// The same with Δp prescribed in some lanes.
     #[inline(always)]
     pub(super) fn given(self, mask: S::Mask, passed: S) -> Self {
         Feed { is_open: self.is_open & !mask, passed: S::select(mask, passed, self.passed), ..self }
     }
 
-    /// The least x at which the belt has any tension.
+    /// Least x for which the belt is under tension.
     #[inline(always)]
     pub(super) fn least(&self) -> S {
         let Some(limiter) = &self.law.limiter else { return S::zero() };

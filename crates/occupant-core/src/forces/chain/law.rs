@@ -18,13 +18,13 @@ use crate::motion::vector::V3;
 pub struct ChainLaw<S> {
     pub(super) nodes: Vec<NodeLaw<S>>,
     pub(super) straps: Straps<S>,
-    /// Number of the belt that it is a part of.
+    /// Index of its belt.
     pub(super) belt: usize,
-    /// What its nodes off the body are fixed to, among the frames.
+    /// Index of the frame of its nodes off the body.
     pub(super) frame: usize,
 }
 
-/// Where a chain lies.
+/// Geometry of a chain.
 pub(super) struct Lies<S> {
     pub(super) ways: [S; MOST_NODES],
     pub(super) places: [Place<S>; MOST_NODES],
@@ -38,21 +38,21 @@ pub(super) struct Now<'a, S: Scalar> {
     pub(super) taut: Taut<'a, S>,
 }
 
-/// What an accepted step has changed.
+/// Changes at an accepted step.
 pub(super) struct Committed<S: Scalar> {
-    /// Where the webbing lies otherwise than before.
+    /// Where the geometry changes.
     pub(super) moved: S::Mask,
-    /// Where a sphere came on or went off beside another: the length jumps, for its plane turns.
+    /// Where a sphere came into or out of contact next to another: the length jumps, as its plane rotates.
     pub(super) refits: S::Mask,
-    /// Where energy was lost with that, or where webbing left a node or was freed.
+    /// Where energy was lost by that, or webbing left a node or was released.
     pub(super) lost: S::Mask,
-    /// Lengths before, m, and what was recoverable, J.
+    /// Lengths before, m, and recoverable energy, J.
     lengths: [S; MOST_NODES],
     stored: S,
 }
 
 impl<S: Scalar> Lies<S> {
-    /// Nowhere yet.
+    /// No changes.
     #[inline(always)]
     pub(super) fn nowhere() -> Self {
         let (places, bends) = ([Place::nowhere(); MOST_NODES], [Bend::none(); MOST_NODES]);
@@ -69,7 +69,7 @@ impl ChainLaw<f64> {
         ChainLaw { straps: Straps::new(chain, starts), nodes, belt, frame: chain.frame.index(&[]) }
     }
 
-    /// Length of the webbing where the body is, m, and the memory of its way there.
+    /// Length of the webbing in the present position of the body, m, and its stored geometry.
     pub(super) fn lie(&self, at: &Instant<'_, f64>) -> (f64, ChainPast<f64>) {
         let mut past = ChainPast::none();
         past.device.time = at.frames.time;
@@ -93,7 +93,7 @@ impl ChainLaw<f64> {
         (bends.iter().fold(0.0, |sum, bend| sum + bend.span + bend.arc), past)
     }
 
-    /// Memory of a belt that lies so, `whole` long in all its parts, m.
+    /// Stored state of a belt in this geometry, with the total unstretched length `whole`, m.
     pub(super) fn start(&self, at: &Instant<'_, f64>, whole: f64, past: &ChainPast<f64>) -> ChainPast<f64> {
         let (mut lies, mut past) = (Lies::nowhere(), *past);
         self.lay(at, &past, &mut lies);
@@ -103,7 +103,7 @@ impl ChainLaw<f64> {
 }
 
 impl ChainLaw<f64> {
-    /// Of each strap, how fast a tension of 1 N would speed its length up, 1/kg, and its unstretched length, m.
+    /// For each strap, acceleration of its length per tension, 1/kg, and its unstretched length, m.
     pub(super) fn gives(&self, at: &Instant<'_, f64>, past: &ChainPast<f64>, mobility: &Mobility<'_>) -> Vec<[f64; 2]> {
         let mut lies = Lies::nowhere();
         self.lay(at, past, &mut lies);
@@ -130,7 +130,7 @@ impl ChainLaw<f64> {
 }
 
 impl ChainLaw<f64> {
-    /// What has gone beyond the end of its curve, as text.
+    /// Reports a curve that was exceeded.
     pub(super) fn overrun(&self, belt: &str, past: &ChainPast<f64>) -> Option<String> {
         let strain = past.nodes.iter().fold(0.0, |most: f64, node| most.max(node.greatest));
         self.straps.overrun(belt, strain, past.device.greatest)
@@ -138,7 +138,7 @@ impl ChainLaw<f64> {
 }
 
 impl ChainLaw<f64> {
-    /// Whether it has a device that acts, or nodes that move by themselves or that the webbing may leave or come onto.
+    /// Whether it has an active device, moving nodes, or nodes that the webbing may leave or reach.
     pub(super) fn can_switch(&self) -> bool {
         let moves = |node: &NodeLaw<f64>| node.may_leave || node.is_pulled();
         self.straps.can_switch() || self.nodes.iter().any(moves)
@@ -146,7 +146,7 @@ impl ChainLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> ChainLaw<S> {
-    /// Where between two commits the first switch was due; none if what they remember does not tell.
+    /// Fraction between two commits at which the first switch was due; none if the stored state does not tell.
     pub(super) fn due(&self, before: &ChainPast<S>, now: &ChainPast<S>) -> Option<S> {
         let mut first = self.straps.due(before, now);
         for (k, node) in self.nodes.iter().enumerate() {
@@ -217,7 +217,7 @@ impl<S: Scalar> ChainLaw<S> {
         }
     }
 
-    /// The chain at one instant, from what it remembers; `lies` is where it lies, and becomes that unless it `is_known`.
+    /// The chain at one instant, from its stored state; `lies` is its geometry, recomputed unless it `is_known`.
     #[inline(always)]
     pub(super) fn now<'a>(
         &'a self,
@@ -257,7 +257,7 @@ impl<S: Scalar> ChainLaw<S> {
         list
     }
 
-    /// Moment of the webbing on a sphere on which it rubs and behind which this strap begins, space axes, N·m.
+    /// Moment of the webbing on a sphere with friction at the start of this strap, space axes, N·m.
     #[inline(always)]
     pub(super) fn couple(&self, now: &Now<'_, S>, k: usize, strap: usize) -> V3<S> {
         let (straps, lies) = (&now.taut.solved.straps, now.lies);
@@ -277,7 +277,7 @@ impl<S: Scalar> ChainLaw<S> {
         found
     }
 
-    /// What has changed in `fresh` lanes.
+    /// Changes in `fresh` lanes.
     #[inline(always)]
     fn changed(&self, now: &Now<'_, S>, past: &ChainPast<S>, next: &ChainPast<S>, fresh: S::Mask) -> Committed<S> {
         let (course, mut strap) = (&now.lies.course, 0);
@@ -305,21 +305,21 @@ impl<S: Scalar> ChainLaw<S> {
         Committed { moved, refits, lost, lengths: course.lengths, stored }
     }
 
-    /// How many spheres a strap passes without friction.
+    /// Number of frictionless spheres in a strap.
     fn spheres(&self, strap: usize) -> usize {
         let starts = &self.straps.starts;
         let end = starts.get(strap + 1).copied().unwrap_or(self.nodes.len());
         self.nodes[starts[strap]..end].iter().filter(|node| node.is_sphere() && !node.rubs).count()
     }
 
-    /// Whether the length of a strap can jump: spheres beside each other come and go, or a track at either end hands over.
+    /// Whether the length of a strap can jump: neighbouring spheres come and go, or a track at either end hands over.
     fn jumps(&self, strap: usize) -> bool {
         let starts = &self.straps.starts;
         let ends = [Some(&starts[strap]), starts.get(strap + 1)];
         self.spheres(strap) > 1 || ends.into_iter().flatten().any(|node| self.nodes[*node].next().is_some())
     }
 
-    /// Where the length has jumped N takes that up, so that no tension does.
+    /// Where the length has jumped, adjusts N so that no tension jumps.
     #[inline(always)]
     pub(super) fn refit(&self, found: &mut Committed<S>, lies: &Lies<S>, past: &mut ChainPast<S>) {
         for (strap, &node) in self.straps.starts.iter().enumerate().filter(|(strap, _)| self.jumps(*strap)) {
@@ -330,7 +330,7 @@ impl<S: Scalar> ChainLaw<S> {
         found.refits = S::truth(false);
     }
 
-    /// What is gone where webbing has left a node, jumped in length or was freed is lost at the first node, but for what is
+    /// Energy lost at the first node where webbing has left a node, jumped in length or was released, except what is
     /// booked as passing through nodes with the next step.
     #[inline(always)]
     pub(super) fn settle(&self, found: &Committed<S>, now: &Now<'_, S>, past: &mut ChainPast<S>) {
@@ -339,7 +339,7 @@ impl<S: Scalar> ChainLaw<S> {
         *lost = S::select(found.lost, *lost + gone, *lost);
     }
 
-    /// Nodes at an accepted step. At most one sphere comes on or goes off: that which is furthest beyond.
+    /// Updates the nodes at an accepted step. At most one sphere comes into or out of contact: the most overdue.
     #[inline(always)]
     fn commit_nodes(&self, at: &Instant<'_, S>, now: &Now<'_, S>, next: &mut ChainPast<S>) {
         let (o, mut most) = (S::zero(), S::zero());

@@ -14,16 +14,16 @@ use crate::motion::scalar::Scalar;
 /// x_s, m.
 const PLAY_M: f64 = 5e-4;
 
-/// Most marches of one solution.
+/// Largest number of marches per solution.
 const MARCHES: usize = 80;
 
-/// What the march needs of a strap and of the node where it begins.
+/// Data of a strap and the node at its start.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run<S> {
     pub(super) length: S,
     /// Nᶜ.
     pub(super) before: S,
-    /// Largest loading strain, and the strain that stays.
+    /// Largest loading strain, and permanent strain.
     pub(super) greatest: S,
     pub(super) set: S,
     /// μθ and exp(−μθ).
@@ -31,13 +31,13 @@ pub(super) struct Run<S> {
     pub(super) hold: S,
     /// zᶜ.
     pub(super) play: S,
-    /// What passes without slip, as a part of the strap before.
+    /// Feed without slip, as a fraction of the previous strap.
     pub(super) carried: S,
-    /// Viscous branch: stiffness κb, strain at which it is free.
+    /// Viscous element: stiffness κb, strain at which it is unloaded.
     pub(super) beside: [S; 2],
 }
 
-/// A strap as the march finds it.
+/// A strap during the march.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tense<S> {
     pub(super) tension: S,
@@ -46,9 +46,9 @@ pub(super) struct Tense<S> {
     pub(super) strain: S,
     /// x*.
     pub(super) loading: S,
-    /// Δs of the node where it begins.
+    /// Δs of the node at its start.
     pub(super) fed: S,
-    /// What of it has slipped.
+    /// Part of it that has slipped.
     pub(super) slip: S,
     /// z there.
     pub(super) play: S,
@@ -62,13 +62,13 @@ impl<S: Scalar> Tense<S> {
     }
 }
 
-/// All straps of a chain.
+/// All straps of a solved chain.
 pub(super) struct Solved<S: Scalar> {
     pub(super) x: S,
     pub(super) straps: [Tense<S>; MOST_NODES],
-    /// Webbing passed beyond the last node, which is none but for rounding, m.
+    /// Webbing passed beyond the last node, zero except for rounding, m.
     pub(super) residual: S,
-    /// The same where it is more than that and no tensions were found; else 0.
+    /// The same if it is larger and no tensions were found; else 0.
     pub(super) unsolved: S,
 }
 
@@ -124,7 +124,7 @@ impl<S: Scalar> Run<S> {
     }
 }
 
-/// The search for the root of R: Newton's method in a bracket that shrinks.
+/// Root search of R: Newton's method in a shrinking bracket.
 struct Bracket<S> {
     x: S,
     low: S,
@@ -134,13 +134,13 @@ struct Bracket<S> {
 }
 
 impl<S: Scalar> Bracket<S> {
-    /// From x on, below which there is nothing less than `least`, but where the first node is open.
+    /// Starts at x, with lower bound `least` except where the first node is open.
     #[inline(always)]
     fn new(x: S, is_open: S::Mask, least: S) -> Self {
         Bracket { x, low: S::select(is_open, S::of(-1e300), least), high: S::of(1e300), last: S::of(1e300) }
     }
 
-    /// Takes a step from R and its derivative at x, but where `done`; true where none is left to take.
+    /// Takes a step from R and its derivative at x, except where `done`; true if none is left.
     #[inline(always)]
     fn step(&mut self, r: S, slope: S, done: S::Mask) -> S::Mask {
         let Bracket { x, low, high, last } = self;
@@ -161,7 +161,7 @@ impl<S: Scalar> Bracket<S> {
     }
 }
 
-/// The chain as it is: slack, or at the root of R.
+/// The solved chain: slack, or at the root of R.
 #[inline(always)]
 pub(super) fn solve<S: Scalar>(
     webbing: &WebbingLaw<S>,
@@ -210,7 +210,7 @@ pub(super) fn solve<S: Scalar>(
     Solved { x: S::select(is_slack, least, x), straps, residual, unsolved }
 }
 
-/// What is left over without tension, when every strap has the length that it lies at, m.
+/// Excess length without tension, when every strap has its geometric length, m.
 #[inline(always)]
 fn surplus<S: Scalar>(webbing: &WebbingLaw<S>, runs: &[Run<S>]) -> S {
     let mut sum = S::zero();
@@ -220,7 +220,7 @@ fn surplus<S: Scalar>(webbing: &WebbingLaw<S>, runs: &[Run<S>]) -> S {
     sum
 }
 
-/// Straps without tension: nothing passes but what the first node gives.
+/// Straps without tension: nothing passes except the feed of the first node.
 #[inline(always)]
 fn slacken<S: Scalar>(
     webbing: &WebbingLaw<S>,

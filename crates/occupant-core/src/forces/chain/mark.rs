@@ -18,17 +18,18 @@ use crate::forces::element::Instant;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// A mark at one instant.
+/// A material mark on the webbing at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mark<S> {
     /// σ, m.
     pub(super) way: S,
-    /// How far beyond the end of the arc the surface has carried it since the last commit, m; below 0 before its beginning.
+    /// Distance by which the surface has carried it beyond the end of the arc since the last commit, m; negative before
+    /// its start.
     pub(super) beyond: S,
 }
 
 impl<S: Scalar> NodeLaw<S> {
-    /// Whether webbing rubs on it and it is a sphere.
+    /// Whether it is a sphere with friction.
     pub(super) fn is_rough(&self) -> bool {
         self.rubs && self.is_sphere()
     }
@@ -53,7 +54,7 @@ impl<S: Scalar> NodeLaw<S> {
         Mark { way, beyond: free - way }
     }
 
-    /// Stores how the webbing lies on a sphere; the mark of one that it comes onto begins in the middle.
+    /// Stores the geometry on a sphere; a new contact's mark begins in the middle.
     #[inline(always)]
     pub(super) fn remember(
         &self,

@@ -42,12 +42,12 @@ use placed_text::Problems;
 pub use results::StrapAction;
 pub use shoulder::OnShoulder;
 
-/// Most nodes of a belt.
+/// Largest number of nodes of a belt.
 pub(crate) const MOST_NODES: usize = 12;
-/// Most spheres of a strap.
+/// Largest number of spheres of a strap.
 const MOST_ARCS: usize = 3;
 
-/// Place of the energy stored in belts, and of the work of pretensioners.
+/// Index of the energy stored in belts, and of the work of pretensioners.
 const STORED_AT: usize = 2;
 const DRIVEN_AT: usize = 5;
 
@@ -84,7 +84,7 @@ impl Element for Chains {
         data.iter().map(|chain| ChainLaw::new(chain, belt(chain), body)).collect()
     }
 
-    /// All parts of a belt begin with the same strain: what is said of its length is said of the whole.
+    /// All parts of a belt start with the same strain: a given length is that of the whole.
     fn start(law: &Vec<ChainLaw<f64>>, at: &Instant<'_, f64>) -> Vec<ChainPast<f64>> {
         let lies: Vec<_> = law.iter().map(|chain| chain.lie(at)).collect();
         let whole = |chain: &ChainLaw<f64>| -> f64 {
@@ -176,7 +176,7 @@ impl Element for Chains {
         }
     }
 
-    /// The stiffest loading of a strap against the mass that it moves where the body is.
+    /// Stiffest loading of a strap, and its effective mass in the present position.
     fn rates(
         data: &[Chain],
         body: &Body,
@@ -200,7 +200,7 @@ impl Element for Chains {
         all.filter(|rate| rate.effective.is_finite()).collect()
     }
 
-    /// A strap is of the body that its belt lies on.
+    /// A strap belongs to the body that its belt touches.
     fn segment(law: &Vec<ChainLaw<f64>>, spheres: &[Sphere<f64>], number: usize, _action: &StrapAction<f64>) -> usize {
         let mut straps = law.iter().flat_map(|chain| chain.straps.starts.iter().map(move |_| chain));
         let nodes = straps.nth(number).into_iter().flat_map(|chain| &chain.nodes);
@@ -213,7 +213,7 @@ impl Element for Chains {
     }
 }
 
-/// What one chain does. A commit of the same time as the last changes nothing, so that a resumed run has the same bits.
+/// Action of one chain. A commit at the time of the last one changes nothing, so that a resumed run has the same bits.
 #[inline(always)]
 fn act<S: Scalar>(
     chain: &ChainLaw<S>,

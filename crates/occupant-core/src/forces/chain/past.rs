@@ -5,22 +5,22 @@ use super::data::NEVER;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 
-/// No change of speed along a track is foreseen over more than so many times the step that showed it.
+/// Largest extrapolation of a speed change along a track, in lengths of the step that showed it.
 const MOST_AHEAD: f64 = 2.0;
 
-/// Rate of strain at which webbing goes back, 1/s: no rounding is as fast.
+/// Strain rate at which webbing counts as unloading, 1/s: above rounding errors.
 pub(super) const BACK_PER_S: f64 = 1e-4;
 
-/// Length of the last step where the payout has gone on otherwise since.
+/// Marker for the length of the last step when the payout has changed its course since.
 const ANEW: f64 = -1.0;
 
-/// What a track is once the webbing has come off it and lies elsewhere.
+/// State of a track whose webbing has slid off and is supported elsewhere.
 const HANDED_OVER: f64 = 2.0;
 
-/// Speed of a stroke that has stalled.
+/// Speed of a stalled stroke.
 pub(super) const STALLED: f64 = -1.0;
 
-/// A struct of numbers with what goes over all of them in one order.
+/// A struct of numbers with iteration in a fixed order.
 macro_rules! numbers {
     ($(#[$doc:meta])* $Name:ident { $($(#[$field_doc:meta])* $field:ident),+ $(,)? }) => {
         $(#[$doc])*
@@ -51,9 +51,9 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// Memory of a node and of the strap that begins there.
+    /// Stored state of a node and of the strap that starts there.
     NodePast {
-        /// 1 while the webbing passes it, 2 once it has come off a track and lies where that says.
+        /// 1 while the webbing passes it, 2 once it has slid off a track and is supported elsewhere.
         on,
         /// Remembered normal of a sphere's plane, and direction from its centre to where the webbing comes onto it, segment axes;
         /// of the first node for the normal the mean speed of the payout in the last step, m/s, how long that lasted, s, and
@@ -72,33 +72,33 @@ numbers! {
         /// Strain of the strap, and that of its viscous branch.
         strain,
         viscous,
-        /// How fast the strain of lossy webbing rises, 1/s: on average in the last step, which lasted so long, s, and at its end; 1
-        /// where it goes back.
+        /// Strain rate of lossy webbing, 1/s: average of the last step, the duration of that step, s, and at its end; 1
+        /// where it unloads.
         mean,
         lasted,
         rate,
         back,
-        /// P of the strap, what a metre of unstretched webbing carries away from it, N.
+        /// P of the strap, energy carried by a metre of unstretched webbing, N.
         carried,
-        /// s, webbing that has come into the strap here since the start, unstretched, m; at the first node the payout.
+        /// s, webbing fed into the strap here since the start, unstretched, m; at the first node the payout.
         fed,
         /// z, −1 to 1.
         play,
-        /// Way of a node along its track or its stroke, or of the mark on a sphere, m, and its speed, m/s.
+        /// Travel of a node along its track or stroke, or of the mark on a sphere, m, and its speed, m/s.
         way,
         speed,
         /// Force of the webbing along a track, N; for other nodes the quantity that decides a switch: W of a sphere,
         /// rad, the pull away from the body or against a stroke, N.
         across,
-        /// Lost here since the start, J: friction along and across, limiter and spool, and the webbing of the strap.
+        /// Dissipated here since the start, J: friction along and across, limiter and spool, and the strap's webbing.
         lost,
     }
 }
 
 numbers! {
-    /// Memory of the belt's device.
+    /// Stored state of the belt's device.
     DevicePast {
-        /// Of the last accepted step, s.
+        /// Time of the last accepted step, s.
         time,
         /// Solution x of the march.
         solution,
@@ -113,17 +113,17 @@ numbers! {
         speed,
         /// Payout when the spool began to lock, or when the pretensioner fired, m.
         mark,
-        /// When lock, pretensioner, second limiter and release are due, s.
+        /// Due times of lock, pretensioner, second limiter and release, s.
         lock_due,
         pull_due,
         switch_due,
         release_due,
-        /// Since when their conditions hold, s.
+        /// Times since when their conditions hold, s.
         lock_since,
         pull_since,
         switch_since,
         release_since,
-        /// 1 once the pretensioner has done its work.
+        /// 1 once the pretensioner has finished.
         pulled,
         /// 1 once the belt is released.
         free,
@@ -131,12 +131,12 @@ numbers! {
         driven,
         /// Recoverable energy of the limiter, J.
         stored,
-        /// Webbing left over, m, where the tensions were not found: the run ends.
+        /// Residual webbing, m, if the tensions were not found: the run ends.
         unsolved,
     }
 }
 
-/// Memory of a chain. Nodes beyond its own are 0.
+/// Stored state of a chain. Nodes beyond its own are 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainPast<S> {
     pub(super) device: DevicePast<S>,
@@ -167,7 +167,7 @@ impl<A: Copy> ChainPast<A> {
 }
 
 impl<S: Scalar> ChainPast<S> {
-    /// Phase of the device, what is due or has begun to hold, the nodes that the webbing passes, the strokes that stand.
+    /// Discrete state: phase of the device, due or pending triggers, nodes passed, stalled strokes.
     #[inline(always)]
     pub(super) fn switches(&self) -> S {
         let (o, soon, device) = (S::zero(), S::of(0.5 * NEVER), &self.device);
@@ -202,8 +202,8 @@ impl<S: Scalar> ChainPast<S> {
 }
 
 impl<S: Scalar> NodePast<S> {
-    /// How the mean speed along a track over a time h after the last commit differs from that at the commit: half of what it
-    /// changes by, if it continues as in the step before. So the way is of second order.
+    /// Difference of the mean speed along a track over a time h after the last commit from that at the commit: half of
+    /// its change, if it continues as in the step before. This makes the travel second-order accurate.
     #[inline(always)]
     pub(super) fn half_change(&self, h: S) -> S {
         let [change, lasted] = [self.touch_x, self.touch_y];
@@ -211,7 +211,7 @@ impl<S: Scalar> NodePast<S> {
         S::select(lasted.gt(S::zero()), change * part * S::of(0.5), S::zero())
     }
 
-    /// Slides along a track with this speed from an accepted step of length h on.
+    /// Slides along a track with this speed after an accepted step of length h.
     #[inline(always)]
     pub(super) fn slide(&mut self, speed: S, h: S) {
         let (o, is_known) = (S::zero(), self.touch_z.gt(S::zero()));
@@ -220,8 +220,8 @@ impl<S: Scalar> NodePast<S> {
         (self.touch_z, self.speed) = (S::one(), speed);
     }
 
-    /// Speed of the payout at the end of a step of length h in which it was `mean`: that of the parabola through this step and the
-    /// last; the mean where there was none.
+    /// Payout speed at the end of a step of length h with the average `mean`: from the parabola through this step and
+    /// the last; the mean if there was none.
     #[inline(always)]
     pub(super) fn pay(&mut self, mean: S, h: S) -> S {
         let (before, lasted) = (self.normal_x, self.normal_y);
@@ -229,26 +229,26 @@ impl<S: Scalar> NodePast<S> {
         mean + S::select(lasted.gt(S::zero()), (mean - before) * (h / (h + lasted)), S::zero())
     }
 
-    /// Where the payout continues otherwise: its speed is not known.
+    /// Marks where the payout changes its course, so that its speed is unknown.
     #[inline(always)]
     pub(super) fn pay_anew(&mut self, anew: S::Mask) {
         self.normal_y = S::select(anew, S::of(ANEW), self.normal_y);
     }
 
-    /// Whether the payout has gone on otherwise since the last step.
+    /// Whether the payout has changed its course since the last step.
     #[inline(always)]
     pub(super) fn pays_anew(&self) -> S::Mask {
         self.normal_y.lt(S::zero())
     }
 
-    /// Whether the limiter goes back: δ falls, or has fallen and is not the largest again.
+    /// Whether the limiter unloads: δ decreases, or has decreased and is not back at its maximum.
     #[inline(always)]
     pub(super) fn goes_back(&self) -> S::Mask {
         self.normal_z.gt(S::zero())
     }
 
-    /// Notes at an accepted step of length h whether the strap goes back, whose webbing has this strain: it falls, or has fallen and is
-    /// not the largest again.
+    /// Notes at an accepted step of length h whether the strap with this strain unloads: the strain decreases, or has
+    /// decreased and is not back at its maximum.
     #[inline(always)]
     pub(super) fn turn(&mut self, strain: S, h: S) {
         let (o, mean) = (S::zero(), (strain - self.strain) / h);
@@ -259,19 +259,19 @@ impl<S: Scalar> NodePast<S> {
         (self.mean, self.lasted, self.back) = (mean, h, S::select(is_back, S::one(), o));
     }
 
-    /// Of a node that is pulled.
+    /// Whether a pulled node has stalled.
     #[inline(always)]
     pub(super) fn has_stalled(&self) -> S::Mask {
         !self.speed.lt(S::of(STALLED)) & !self.speed.gt(S::of(STALLED))
     }
 
-    /// Whether webbing has come off this track and lies where that says.
+    /// Whether webbing has slid off this track and is supported elsewhere.
     #[inline(always)]
     pub(super) fn is_handed_over(&self) -> S::Mask {
         self.on.gt(S::of(HANDED_OVER - 0.5))
     }
 
-    /// Hands webbing over that `leaves` a track, for good: it slides no more. Whether it leaves altogether: it does not.
+    /// Hands over webbing that `leaves` a track, for good; it slides no more. Whether it has no support left.
     #[inline(always)]
     pub(super) fn hand_over(&mut self, leaves: S::Mask) -> S::Mask {
         let (o, passes) = (S::zero(), self.is_on());

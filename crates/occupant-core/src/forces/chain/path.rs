@@ -16,7 +16,7 @@ use super::past::NodePast;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// What the webbing passes: a point, or a sphere of this radius.
+/// A node's geometry: a point, or a sphere of this radius.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place<S> {
     pub(super) centre: V3<S>,
@@ -25,7 +25,7 @@ pub(super) struct Place<S> {
     /// Whether a strap ends here.
     pub(super) rubs: bool,
     pub(super) may_leave: bool,
-    /// Remembered normal of a sphere's plane.
+    /// Stored normal of a sphere's plane.
     pub(super) sense: V3<S>,
 }
 
@@ -37,27 +37,27 @@ impl<S: Scalar> Place<S> {
     }
 }
 
-/// The webbing at a node.
+/// Webbing geometry at a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bend<S> {
     /// Length of the span that ends here, and of the arc on a sphere, m.
     pub(super) span: S,
     pub(super) arc: S,
-    /// −∂ℓ/∂x of the webbing before and of that behind the node.
+    /// −∂ℓ/∂x of the webbing before and after the node.
     pub(super) back: V3<S>,
     pub(super) ahead: V3<S>,
     /// W, rad.
     pub(super) wrap: S,
     /// m.
     pub(super) normal: V3<S>,
-    /// From the centre to where the webbing comes onto a sphere, as a part of the radius. Beside a sphere on which it rubs and
-    /// that it has left: to the nearest place of the free span, and how far along the span that is, m.
+    /// From the centre to the tangent point on a sphere, relative to the radius. For a sphere with friction that it has
+    /// left: to the nearest point of the free span, and the distance along the span to that, m.
     pub(super) touch: V3<S>,
     pub(super) beside: S,
 }
 
 impl<S: Scalar> Bend<S> {
-    /// That of no node.
+    /// No node.
     #[inline(always)]
     pub(super) fn none() -> Self {
         let (o, none) = (S::zero(), V3::zero());
@@ -65,7 +65,7 @@ impl<S: Scalar> Bend<S> {
     }
 }
 
-/// Angle that webbing with these gradients turns by, rad.
+/// Deflection angle of webbing with these gradients, rad.
 #[inline(always)]
 pub(super) fn turn<S: Scalar>(back: V3<S>, ahead: V3<S>) -> S {
     let sine = back.cross(ahead).norm_squared().max(S::of(1e-60)).sqrt();
@@ -77,7 +77,7 @@ fn is_on<S: Scalar>(place: &Place<S>, past: &NodePast<S>) -> S::Mask {
     if place.may_leave { past.is_on() } else { S::truth(true) }
 }
 
-/// Centre and radius of the node behind each that the webbing passes.
+/// Centre and radius of the next node that the webbing passes.
 #[inline(always)]
 fn behind<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [(V3<S>, S); MOST_NODES] {
     let count = places.len();
@@ -90,7 +90,7 @@ fn behind<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [
     behind
 }
 
-/// The webbing along `places`; `past` says which of them it passes, and senses of normals.
+/// The webbing along `places`; `past` gives the nodes passed, and senses of normals.
 #[inline(always)]
 pub(super) fn bends<S: Scalar>(
     places: &[Place<S>],
@@ -146,7 +146,7 @@ pub(super) fn bends<S: Scalar>(
     }
 }
 
-/// An arc on a sphere, with what it gives to −gradient at the nodes on either side.
+/// An arc on a sphere, and its contribution to −gradient at the neighbouring nodes.
 struct Arc<S> {
     wrap: S,
     normal: V3<S>,
@@ -184,7 +184,7 @@ fn wrapped<S: Scalar>(place: &Place<S>, before: (V3<S>, S), next: (V3<S>, S)) ->
     }
 }
 
-/// From the centre to the nearest place of a free span from `before` to `next`, and how far along the span that is, m.
+/// From the centre to the nearest point of a free span from `before` to `next`, and the distance along the span, m.
 #[inline(always)]
 fn nearest<S: Scalar>(place: &Place<S>, before: V3<S>, next: V3<S>) -> (V3<S>, S) {
     let (p, span) = (before - place.centre, next - before);

@@ -46,7 +46,7 @@ impl ReelLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> ReelLaw<S> {
-    /// Where between two commits the phase that has ended was due to end.
+    /// Fraction between two commits at which the previous phase was due to end.
     pub(super) fn due(&self, before: &Moment<'_, S>, now: &Moment<'_, S>, level: S) -> Option<S> {
         let (a, time) = (before.past, now.past.time);
         let at = |due: S| (!time.lt(due)).then(|| passes(due, a.time, time));
@@ -69,7 +69,7 @@ impl<S: Scalar<Mask = bool>> ReelLaw<S> {
 }
 
 impl<S: Copy> ReelLaw<S> {
-    /// What must be equal for two to be computed side by side.
+    /// Structure that must be equal for side-by-side evaluation.
     pub(super) fn shape(&self) -> [Option<usize>; 4] {
         let pull = self.pull.as_ref();
         [
@@ -98,9 +98,8 @@ impl<S: Copy> ReelLaw<S> {
 }
 
 impl<S: Scalar> ReelLaw<S> {
-    /// Where the pretensioner comes to its end; it begins where it is due. It stops for good where the tension reaches its
-    /// own force or `level`, that at which the limiter yields, whichever comes first; a belt that is as tight it does not
-    /// pull.
+    /// End of the pretensioner; it starts when due. It stops for good when the tension reaches its own force or
+    /// `level`, the yield force of the limiter, whichever comes first; it does not act on a belt already that tight.
     #[inline(always)]
     pub(super) fn commit_pull(&self, time: S, seen: &[S; 4], level: S, past: &mut DevicePast<S>) -> S::Mask {
         let Some(pull) = &self.pull else { return S::truth(false) };
@@ -124,7 +123,7 @@ impl<S: Scalar> ReelLaw<S> {
         stops
     }
 
-    /// Where an open spool locks; it begins to where its trigger has fired.
+    /// Locks an open spool, starting when its trigger has fired.
     #[inline(always)]
     pub(super) fn commit_lock(&self, time: S, payout: S, past: &mut DevicePast<S>) -> S::Mask {
         let is_open = past.phase.lt(S::of(Phase::LOCKING));

@@ -22,48 +22,48 @@ use crate::quantity::{Axes, FieldWords, Quantity};
 /// Largest angle between two points of a drawn arc, rad.
 const ARC_STEP_RAD: f64 = 0.15;
 
-/// What one strap does at one instant.
+/// Action of one strap at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct StrapAction<S> {
     /// T, N.
     pub force: S,
     /// ε.
     pub strain: S,
-    /// Length that it lies at, m.
+    /// Geometric length, m.
     pub length: S,
-    /// N, its length without tension, m.
+    /// N, unstretched length, m.
     pub unstretched: S,
-    /// Webbing that has come into it where it begins since the start, unstretched, m: of a spool the payout.
+    /// Webbing fed in at its start since the beginning, unstretched, m: payout for a spool.
     pub fed: S,
     /// Its speed, of the first strap, m/s.
     pub fed_speed: S,
-    /// Phase of the device where it begins; 0 of a ring.
+    /// Phase of the device at its start; 0 for a ring.
     pub phase: S,
-    /// θ where it begins, rad.
+    /// θ at its start, rad.
     pub turn: S,
-    /// 1 while the webbing passes the node where it begins.
+    /// 1 while the webbing passes the node at its start.
     pub passes: S,
-    /// Recoverable, limiter included, J.
+    /// Recoverable energy, including the limiter, J.
     pub stored: S,
-    /// Lost in it and where it begins, J.
+    /// Dissipated in it and at its start, J.
     pub lost: S,
     /// Work of actuators, J.
     pub driven: S,
-    /// Webbing that the solution leaves over, m.
+    /// Residual webbing of the solution, m.
     pub residual: S,
     /// Ends, vehicle axes, m.
     pub ends: [V3<S>; 2],
-    /// Force of the webbing on the node where it begins, vehicle axes, N.
+    /// Force of the webbing on the node at its start, vehicle axes, N.
     pub node_force: V3<S>,
-    /// 1 where it begins at the left wing of the pelvis, 2 at the right one, 0 elsewhere.
+    /// 1 if it starts at the left iliac wing, 2 at the right one, 0 elsewhere.
     pub wing: S,
-    /// 1 once the webbing has come off the node where it begins.
+    /// 1 once the webbing has left the node at its start.
     pub is_off: S,
-    /// Angle of the webbing's force on a track where it begins against the bone's normal, rad; 0 elsewhere and off.
+    /// Angle of the webbing's force on a track at its start to the bone's normal, rad; 0 elsewhere and off.
     pub bone_angle: S,
     /// That force, N.
     pub bone_force: S,
-    /// The spheres that it wraps, and points between that it passes without friction.
+    /// Spheres that it wraps, and frictionless points between them.
     arcs: [Arc<S>; MOST_ARCS],
 }
 
@@ -71,12 +71,12 @@ pub struct StrapAction<S> {
 #[derive(Clone, Copy, Debug)]
 struct Arc<S> {
     sphere: Option<usize>,
-    /// W, rad; 0 or less where the webbing does not touch it.
+    /// W, rad; ≤ 0 without contact.
     wrap: S,
-    /// Centre, and from there to where the webbing comes onto the sphere, vehicle axes, m.
+    /// Centre, and vector from there to the tangent point, vehicle axes, m.
     centre: V3<S>,
     touch: V3<S>,
-    /// About which it goes round.
+    /// Axis of the arc.
     axis: V3<S>,
     force: V3<S>,
 }
@@ -126,7 +126,7 @@ impl<S: Scalar> StrapAction<S> {
     }
 }
 
-/// Angle and size of the force on the bone of a track.
+/// Angle and magnitude of the force on the bone of a track.
 #[inline(always)]
 fn on_bone<S: Scalar>(node: &NodeLaw<S>, at: &Instant<'_, S>, way: S, past: &NodePast<S>, force: V3<S>) -> [S; 2] {
     let SiteLaw::Track(segment, track) = &node.site else { return [S::zero(); 2] };
@@ -136,7 +136,7 @@ fn on_bone<S: Scalar>(node: &NodeLaw<S>, at: &Instant<'_, S>, way: S, past: &Nod
     [track.angle(way, force), size].map(|number| S::select(is_there & size.gt(S::of(1e-6)), number, S::zero()))
 }
 
-/// The spheres of a strap that begins and ends at these nodes, and as many of the points between as there is room for.
+/// Spheres of a strap between these nodes, and as many points between as fit.
 #[inline(always)]
 fn arcs<S: Scalar>(
     chain: &ChainLaw<S>,
@@ -279,7 +279,7 @@ impl Reported for Chains {
             at_least_zero: true,
         },
         Tracked {
-            column: Column::number("lost_j", "lost, J", 1).measure("lost", Joule),
+            column: Column::number("lost_j", "dissipated, J", 1).measure("lost", Joule),
             time: None,
             at_least_zero: true,
         },
@@ -446,7 +446,7 @@ const COMES_ONTO: &str = "comes onto a sphere of the body";
 const LEAVES: &str = "leaves a sphere of the body";
 const TIGHTENS: &str = "tightens";
 const SLACKENS: &str = "goes slack";
-/// What a device does when it comes into a phase.
+/// Descriptions of phase changes of a device.
 const PHASES: [&str; 5] = ["", "opens", "begins to lock", "is pulled in by its pretensioner", "locks"];
 
 fn phase_words<S: Scalar>(phase: S) -> &'static str {

@@ -9,31 +9,31 @@ use super::past::ChainPast;
 use super::site::{SiteLaw, TrackLaw};
 use crate::motion::vector::V3;
 
-/// Across a track webbing is held by less than this of its force over the short time of a crash, whatever its friction: ours, of runs of cars
-/// with belts that begin 45° from the track's normal and stay.
+/// Largest ratio of lateral force held across a track in a crash, whatever the friction: ours, from runs of cars with
+/// belts that start 45° from the track's normal and stay.
 const HOLDS: f64 = 1.2;
-/// Steps in which a track is gone along.
+/// Number of steps along a track.
 const STEPS: f64 = 200.0;
-/// As near to the inner end as this part of a track is beside the neck.
+/// Distance from the inner end, relative to the track, that counts as beside the neck.
 const AT_END: f64 = 1e-6;
 
-/// How webbing lies on a shoulder.
+/// State of webbing on a shoulder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OnShoulder {
-    /// On the shoulder.
+    /// Carries load on the shoulder.
     Bears,
     /// At the inner end of its track, beside the neck.
     AtNeck,
     /// Beyond the outer end of its track.
     SlidOff,
-    /// In the air: it pulls away from the shoulder.
+    /// Lifted off the shoulder.
     LiftedOff,
 }
 
 impl Track {
-    /// Where webbing from `ends` comes to lie under tension, and how far from the inner end that is, 0 to 1. Joint of its segment and ends
-    /// in that segment's axes; `joint` seen from the lower end. None of a track that is no arc.
+    /// Position of webbing from `ends` under tension, and its distance from the inner end, 0 to 1. Joint of its segment
+    /// and ends in that segment's axes; `joint` from the lower end. None for a track that is no arc.
     pub(crate) fn settles(&self, joint: Vector3<f64>, ends: [Vector3<f64>; 2]) -> Option<(f64, OnShoulder)> {
         let law = TrackLaw::new(self, 0, &|_| joint)?;
         let ends = ends.map(|end| V3::of(&end));
@@ -63,12 +63,12 @@ impl Track {
 }
 
 impl ChainLaw<f64> {
-    /// How many straps it has.
+    /// Number of its straps.
     pub(crate) fn strap_count(&self) -> usize {
         self.straps.starts.len()
     }
 
-    /// How the webbing lies on the first track that is no wing of the pelvis, and the number of the strap that begins there.
+    /// State of the webbing on the first track that is no iliac wing, and the index of the strap that starts there.
     pub(crate) fn on_shoulder(&self, past: &ChainPast<f64>) -> Option<(usize, OnShoulder)> {
         let is_track = |site: &SiteLaw<f64>| matches!(site, SiteLaw::Track(_, track) if track.wing.is_none());
         let k = self.nodes.iter().position(|node| is_track(&node.site))?;

@@ -22,7 +22,7 @@ pub(super) struct NodeLaw<S> {
     pub(super) rubs: bool,
     strength: S,
     pub(super) may_leave: bool,
-    /// How a point of a segment rides.
+    /// Ride of a segment point on deformable parts.
     ride: Option<Riding<S>>,
     /// What carries a point of the vehicle instead of the belt's frame, among the frames.
     pub(super) frame: Option<usize>,
@@ -30,9 +30,9 @@ pub(super) struct NodeLaw<S> {
 
 #[derive(Clone, Debug)]
 pub(super) enum SiteLaw<S> {
-    /// Vehicle axes.
+    /// Point in vehicle axes.
     Vehicle(V3<S>, Option<StrokeLaw<S>>),
-    /// From the segment's joint, with the direction away from the body, segment axes.
+    /// Point from the segment's joint, with the direction away from the body, segment axes.
     Segment(usize, V3<S>, Option<V3<S>>),
     Track(usize, TrackLaw<S>),
     Sphere(usize),
@@ -54,16 +54,16 @@ pub(super) struct TrackLaw<S> {
     along: V3<S>,
     radius: S,
     pub(super) length: S,
-    /// Where the webbing begins.
+    /// Initial position of the webbing.
     pub(super) start: S,
     friction: S,
     drag: S,
     pub(super) wing: Option<Wing>,
-    /// What takes webbing over that has come off it.
+    /// Support of webbing that has slid off it.
     pub(super) then: Option<NextLaw<S>>,
 }
 
-/// A point of a segment, from its joint, that takes webbing over.
+/// A point of a segment, from its joint, that supports webbing.
 #[derive(Clone, Debug)]
 pub(super) struct NextLaw<S> {
     pub(super) segment: usize,
@@ -82,7 +82,7 @@ impl<S: Copy> NextLaw<S> {
 }
 
 impl TrackLaw<f64> {
-    /// The circle through three points, seen from the joint; nothing if they are in line. `joint` gives that of a segment.
+    /// The circle through three points, from the joint; none if they are collinear. `joint` gives that of a segment.
     pub(super) fn new(track: &Track, segment: usize, joint: &dyn Fn(usize) -> Vector3<f64>) -> Option<Self> {
         let from = joint;
         let joint = from(segment);
@@ -140,7 +140,7 @@ impl<S: Copy> TrackLaw<S> {
 }
 
 impl<S: Scalar> TrackLaw<S> {
-    /// The point at a way along the arc, and the directions along it and away from its centre.
+    /// The point at a distance along the arc, and the directions along it and away from its centre.
     #[inline(always)]
     pub(super) fn at(&self, way: S) -> (V3<S>, V3<S>, V3<S>) {
         let (sine, cosine) = (way / self.radius).sin_cos();
@@ -184,8 +184,8 @@ impl NodeLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> NodeLaw<S> {
-    /// Where between two memories the webbing was due to come onto the node or off it, or its stroke to stall; none if they
-    /// do not tell.
+    /// Fraction between two stored states at which the webbing was due to reach or leave the node, or its stroke to
+    /// stall; none if they do not tell.
     pub(super) fn due(&self, before: &NodePast<S>, now: &NodePast<S>) -> Option<S> {
         let is_torn = self.strength.lt(S::of(NEVER));
         match &self.site {
@@ -207,7 +207,7 @@ impl NodeLaw<f64> {
 }
 
 impl<S: Copy> NodeLaw<S> {
-    /// What must be equal for two to be computed side by side.
+    /// Structure that must be equal for side-by-side evaluation.
     pub(super) fn shape(&self) -> (usize, usize, usize, [bool; 2], Option<Vec<usize>>) {
         let (kind, of, rows) = match &self.site {
             SiteLaw::Vehicle(_, None) => (0, self.frame.unwrap_or(0), 0),
@@ -221,12 +221,12 @@ impl<S: Copy> NodeLaw<S> {
         (kind, of, rows, [self.rubs, self.may_leave], ridden)
     }
 
-    /// The wing of the pelvis that it is.
+    /// The iliac wing, if it is one.
     pub(super) fn wing(&self) -> Option<Wing> {
         if let SiteLaw::Track(_, track) = &self.site { track.wing } else { None }
     }
 
-    /// What takes webbing over that has come off it.
+    /// Support of webbing that has slid off it.
     #[inline(always)]
     pub(super) fn next(&self) -> Option<&NextLaw<S>> {
         if let SiteLaw::Track(_, track) = &self.site { track.then.as_ref() } else { None }
@@ -266,14 +266,14 @@ impl<S: Copy> NodeLaw<S> {
     }
 }
 
-/// Where a point of a segment is, seen from its joint in the segment's axes; space axes.
+/// Position of a segment point, from its joint in the segment's axes; space axes.
 #[inline(always)]
 fn on_segment<S: Scalar>(at: &Instant<'_, S>, n: usize, offset: V3<S>) -> V3<S> {
     at.k.joint[n] + at.k.axes[n].out(offset)
 }
 
 impl<S: Scalar> NextLaw<S> {
-    /// Where it is, space axes.
+    /// Position, space axes.
     #[inline(always)]
     fn place(&self, at: &Instant<'_, S>) -> V3<S> {
         let point = on_segment(at, self.segment, self.point);
@@ -282,7 +282,7 @@ impl<S: Scalar> NextLaw<S> {
 }
 
 impl<S: Scalar> TrackLaw<S> {
-    /// Force along it and across that, N, of a force in axes of its segment at a way.
+    /// Force along and across it, N, from a force in axes of its segment at a position.
     #[inline(always)]
     pub(super) fn parted(&self, way: S, force: V3<S>) -> [S; 2] {
         let (_, along, _) = self.at(way);
@@ -299,7 +299,7 @@ impl<S: Scalar> TrackLaw<S> {
 }
 
 impl<S: Scalar> NodeLaw<S> {
-    /// The segment that it is on.
+    /// Its segment.
     #[inline(always)]
     pub(super) fn segment(&self, spheres: &[Sphere<S>]) -> Option<usize> {
         match &self.site {
@@ -309,7 +309,7 @@ impl<S: Scalar> NodeLaw<S> {
         }
     }
 
-    /// The sphere that it is on.
+    /// Its sphere.
     #[inline(always)]
     pub(super) fn sphere<'s>(&self, spheres: &'s [Sphere<S>]) -> Option<&'s Sphere<S>> {
         if let SiteLaw::Sphere(sphere) = self.site { Some(&spheres[sphere]) } else { None }
@@ -319,18 +319,18 @@ impl<S: Scalar> NodeLaw<S> {
         matches!(self.site, SiteLaw::Sphere(_))
     }
 
-    /// How it rides on parts of its segment that yield.
+    /// Its ride on deformable parts of its segment.
     #[inline(always)]
     pub(super) fn riding<'s>(&'s self, spheres: &'s [Sphere<S>]) -> Option<&'s Riding<S>> {
         self.sphere(spheres).map_or(self.ride.as_ref(), |sphere| sphere.riding(Use::Belt))
     }
 
-    /// Way at the start.
+    /// Initial travel.
     pub(super) fn start(&self) -> S {
         if let SiteLaw::Track(_, track) = &self.site { track.start } else { S::zero() }
     }
 
-    /// Way along track or stroke at a time.
+    /// Travel along track or stroke at a time.
     #[inline(always)]
     pub(super) fn way(&self, time: S, past: &NodePast<S>, device: &DevicePast<S>) -> S {
         match &self.site {
@@ -345,14 +345,14 @@ impl<S: Scalar> NodeLaw<S> {
         }
     }
 
-    /// Where a place of segment `n` is that rides as this node does, space axes.
+    /// Position of a point of segment `n` that rides as this node does, space axes.
     #[inline(always)]
     fn on_segment(&self, at: &Instant<'_, S>, n: usize, offset: V3<S>) -> V3<S> {
         let point = on_segment(at, n, offset);
         if let Some(riding) = &self.ride { point + riding.carried(at.k)[0] } else { point }
     }
 
-    /// Where it is in or on the body or in `frame`, space axes.
+    /// Position on the body or in `frame`, space axes.
     #[inline(always)]
     pub(super) fn place(&self, at: &Instant<'_, S>, frame: &Moving<S>, way: S, past: &NodePast<S>) -> Place<S> {
         let (mut sense, none) = (V3::zero(), S::zero());

@@ -18,16 +18,16 @@ use crate::motion::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub(super) struct WebbingLaw<S> {
     curve: FunctionLaw<S>,
-    /// Whether it keeps a part of its work and no limiter gives way with it: then it matters where it goes back.
+    /// Whether unloading matters: it is lossy and no limiter yields with it.
     turns: bool,
-    /// κ, N, and τ, s, of a Maxwell branch: κe with ė = ε̇ − e/τ.
+    /// κ, N, and τ, s, of a Maxwell element: κe with ė = ε̇ − e/τ.
     viscous: Option<[S; 2]>,
 }
 
 /// Constants of the straps of a chain.
 #[derive(Clone, Debug)]
 pub(super) struct Straps<S> {
-    /// The node where each begins, and μ there.
+    /// The node at the start of each, and μ there.
     pub(super) starts: Vec<usize>,
     pub(super) friction: Vec<S>,
     pub(super) webbing: WebbingLaw<S>,
@@ -43,8 +43,8 @@ pub(super) struct Taut<'a, S: Scalar> {
     pub(super) solved: Solved<S>,
 }
 
-/// How the webbing lies: lengths of the straps, θ where each begins, and what a sphere's surface has
-/// carried there beyond the arc, as a part of the strap before.
+/// Webbing geometry: lengths of the straps, θ at the start of each, and distance carried by a sphere's surface beyond
+/// the arc, as a fraction of the previous strap.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course<S> {
     pub(super) lengths: [S; MOST_NODES],
@@ -61,8 +61,8 @@ impl<S: Scalar> Course<S> {
 }
 
 impl<S: Scalar> Taut<'_, S> {
-    /// What is lost as webbing that a surface has carried from the strap before into this one stretches to it, J: P of this
-    /// less P of that for what it is unstretched, less the difference of tensions for its length.
+    /// Energy lost as webbing carried by a surface from the previous strap into this one stretches, J: P of this minus
+    /// P of that per unstretched length, minus the difference of tensions times its length.
     #[inline(always)]
     fn stretched(&self, strap: usize, more: S) -> S {
         let (from, to) = (&self.solved.straps[strap - 1], &self.solved.straps[strap]);
@@ -90,7 +90,7 @@ impl<S: Copy> WebbingLaw<S> {
 }
 
 impl<S: Scalar> WebbingLaw<S> {
-    /// Strain at a tension, its slope over the tension, and x*.
+    /// Strain at a tension, its derivative by the tension, and x*.
     #[inline(always)]
     pub(super) fn reach(&self, tension: S, run: &Run<S>) -> (S, S, S) {
         match self.viscous {
@@ -105,8 +105,8 @@ impl<S: Scalar> WebbingLaw<S> {
         if self.viscous.is_some() { self.reach(S::zero(), run).0 } else { run.set }
     }
 
-    /// The Maxwell branch a time h after the last commit as a spring, exact for a constant rate of strain since: with
-    /// a = exp(−h/τ) and b = (1 − a)τ/h, e = a eᶜ + b (ε − εᶜ). Its stiffness κb and the strain where it is free.
+    /// The Maxwell element a time h after the last commit as a spring, exact for a constant strain rate since: with a =
+    /// exp(−h/τ) and b = (1 − a)τ/h, e = a eᶜ + b (ε − εᶜ). Its stiffness κb and the unloaded strain.
     #[inline(always)]
     fn beside(&self, h: S, past: &NodePast<S>) -> [S; 2] {
         let Some([stiffness, time]) = self.viscous else { return [S::zero(); 2] };
@@ -119,7 +119,7 @@ impl<S: Scalar> WebbingLaw<S> {
 }
 
 impl Straps<f64> {
-    /// Straps that begin at these nodes.
+    /// Straps that start at these nodes.
     pub(super) fn new(chain: &Chain, starts: Vec<usize>) -> Self {
         Straps {
             friction: starts.iter().map(|&node| chain.nodes[node].friction).collect(),
@@ -131,14 +131,14 @@ impl Straps<f64> {
         }
     }
 
-    /// What has gone beyond the end of its curve, in words: the webbing, or its limiter.
+    /// Reports a curve that was exceeded: of the webbing, or of its limiter.
     pub(super) fn overrun(&self, belt: &str, strain: f64, limiter_m: f64) -> Option<String> {
         let webbing = format!("the webbing of the belt {belt}");
         let stretched = self.webbing.curve.overrun(&webbing, strain, |strain| format!("{:.2} %", 1e2 * strain));
         stretched.or_else(|| self.device.overrun(&format!("the limiter of the belt {belt}"), limiter_m))
     }
 
-    /// Strain of all straps at the start, for a belt that is `whole` long in all its parts, m.
+    /// Initial strain of all straps, for a belt with the total length `whole`, m.
     pub(super) fn start_strain(&self, whole: f64) -> f64 {
         let of_tension = |tension| self.webbing.curve.reach(tension, 0.0, 0.0).0;
         match (self.device.open_tension(), self.rest) {
@@ -148,7 +148,7 @@ impl Straps<f64> {
         }
     }
 
-    /// Memory of straps that lie with this strain.
+    /// Stored state of straps at this strain.
     pub(super) fn start(&self, time_s: f64, strain: f64, lengths: &[f64; MOST_NODES], past: &mut ChainPast<f64>) {
         let greatest = strain.max(0.0);
         let response = self.webbing.curve.respond(strain, greatest);
@@ -169,13 +169,13 @@ impl Straps<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> Straps<S> {
-    /// Tension of a strap at a commit, from what it remembers of it.
+    /// Tension of a strap at a commit, from its stored state.
     fn tension(&self, past: &NodePast<S>) -> S {
         let beside = self.webbing.viscous.map_or(S::zero(), |[stiffness, _]| stiffness * past.viscous);
         (self.webbing.curve.respond(past.strain, past.greatest).force + beside).max(S::zero())
     }
 
-    /// Where between two commits the device was due to switch, or a strap to tear.
+    /// Fraction between two commits at which the device was due to switch, or a strap to tear.
     pub(super) fn due(&self, before: &ChainPast<S>, now: &ChainPast<S>) -> Option<S> {
         let first = |past: &NodePast<S>| self.tension(past);
         let [from, to] = [before, now].map(|past| Moment {
@@ -193,7 +193,7 @@ impl<S: Scalar<Mask = bool>> Straps<S> {
         self.device.due(&from, &to).into_iter().chain(tears).chain(turns).reduce(S::min)
     }
 
-    /// Where between two commits a strap was due to go back, or to load again.
+    /// Fraction between two commits at which a strap was due to unload, or to reload.
     fn turns(before: &NodePast<S>, now: &NodePast<S>) -> Option<S> {
         match [before, now].map(|past| past.back.gt(S::zero())) {
             [false, true] => Some(passes(S::of(BACK_PER_S), -before.rate, -now.rate)),
@@ -224,7 +224,7 @@ impl<S: Copy> Straps<S> {
 }
 
 impl<S: Scalar> Straps<S> {
-    /// The straps at one instant, from what they remember.
+    /// The straps at one instant, from their stored state.
     #[inline(always)]
     pub(super) fn taut(&self, time: S, course: &Course<S>, past: &ChainPast<S>) -> Taut<'_, S> {
         let o = S::zero();
@@ -268,7 +268,7 @@ impl<S: Scalar> Straps<S> {
         Taut { runs, feed, solved }
     }
 
-    /// e of a strap's viscous branch.
+    /// e of a strap's viscous element.
     #[inline(always)]
     fn viscous(&self, taut: &Taut<'_, S>, strap: usize) -> S {
         let Some([stiffness, _]) = self.webbing.viscous else { return S::zero() };
@@ -284,7 +284,7 @@ impl<S: Scalar> Straps<S> {
         self.webbing.curve.returned_to(taut.solved.straps[strap].loading)[1] + stiffness * e * e * S::of(0.5)
     }
 
-    /// Recoverable energy of a strap, that of the limiter with the first, J.
+    /// Recoverable energy of a strap, J; the first includes the limiter.
     #[inline(always)]
     pub(super) fn stored(&self, taut: &Taut<'_, S>, strap: usize) -> S {
         let webbing = taut.solved.straps[strap].unstretched * self.stored_per_metre(taut, strap);
@@ -301,7 +301,8 @@ impl<S: Scalar> Straps<S> {
         sum
     }
 
-    /// Σ (P_j − P_{j−1}) Δs_j with the mean of old and new, J: lost where webbing has passed since the last commit.
+    /// Σ (P_j − P_{j−1}) Δs_j with the mean of old and new, J: dissipated where webbing has passed since the last
+    /// commit.
     #[inline(always)]
     pub(super) fn passing(&self, taut: &Taut<'_, S>, past: &ChainPast<S>) -> S {
         let (mut sum, mut before) = (S::zero(), S::zero());
@@ -363,7 +364,7 @@ impl<S: Scalar> Straps<S> {
         next.device.stored = self.device.stored(&feed, feed.delta(next.device.solution));
     }
 
-    /// Books what passed at the first node: work of the pretensioner, or what limiter and spool have lost.
+    /// Books the flow at the first node: work of the pretensioner, or dissipation of limiter and spool.
     #[inline(always)]
     fn book(&self, taut: &Taut<'_, S>, flow: S, past: &ChainPast<S>, next: &mut ChainPast<S>) {
         let (phase, o) = (past.device.phase, S::zero());

@@ -6,22 +6,24 @@
 pub const ACROSS: f64 = 0.25;
 /// Drag of webbing across a wing, N·s/m.
 pub const DRAG_N_S_M: f64 = 100.0;
-/// Webbing that pulls with less stays where it lies, N: a lighter pull is that of a drive, not of a crash. Ours.
+/// Pull below which webbing does not slide, N: as in driving, below that of a crash. Ours.
 pub(crate) const LEAST_N: f64 = 1000.0;
-/// Angles of the wing's ends and of where the webbing begins on it, above ahead, rad: the notch, below the spine, on the crest.
+/// Angles of the wing's ends and of the webbing's initial position on it, upward from forward, rad: the notch, below
+/// the spine, on the crest.
 pub const ANGLES_RAD: [f64; 3] = [0.0, 0.44, 1.13];
 
-/// Tangent of the angle of a strap's pull against a wing's normal at an angle above ahead, positive towards the abdomen. The belt pulls back
-/// and `below_rad` down, seen by the pelvis, and across from wing to wing with the same tension.
+/// Tangent of the angle of a strap's pull to a wing's normal at an angle upward from forward, positive towards the
+/// abdomen. The belt pulls back and `below_rad` down, relative to the pelvis, and across from wing to wing with the
+/// same tension.
 pub fn across(angle_rad: f64, below_rad: f64) -> f64 {
     let (sine, cosine) = occupant_units::trig::sin_cos(angle_rad - below_rad);
     sine / (cosine * cosine + 1.0).sqrt()
 }
 
-/// Where webbing lies that slides on the wings as a belt on a track does, all of whose pull is known.
+/// Webbing that slides on the wings as a belt does on a track, from the belt's total pull.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slider {
-    /// Angle above ahead where it lies, rad.
+    /// Angle of its position, upward from forward, rad.
     angle_rad: f64,
     is_off: bool,
 }
@@ -33,7 +35,8 @@ impl Default for Slider {
 }
 
 impl Slider {
-    /// Goes on by `time_s` under the belt's whole pull ahead and up, in axes of the pelvis, N, on wings of a radius, m. Whether it has come off.
+    /// Advances by `time_s` under the belt's total pull forward and up, in axes of the pelvis, N, on wings of a radius,
+    /// m. Whether it has slid off.
     pub fn go(&mut self, [ahead, up]: [f64; 2], radius_m: f64, time_s: f64) -> bool {
         let force = ahead.hypot(up);
         if force < LEAST_N {

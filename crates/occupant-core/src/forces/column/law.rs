@@ -26,35 +26,35 @@ use crate::motion::scalar::Scalar;
 use crate::motion::state::State;
 use crate::motion::vector::{M3, V3};
 
-/// What its numbers are 1 of: x, m; ẋ, m/s; the work that it takes up, J. With that of ẋ the error control bounds x and ẋ as places
-/// and speeds of the body.
+/// Unit sizes of its numbers: x, m; ẋ, m/s; absorbed work, J. With that of ẋ the error control bounds x and ẋ as
+/// positions and speeds of the body.
 const UNITS: [f64; 3] = [1.0, 100.0, 1000.0];
 
 /// Constants of a column.
 #[derive(Clone, Debug)]
 pub struct ColumnLaw<S> {
-    /// Its place among all that yield.
+    /// Its index among columns and hinges.
     pub(super) place: usize,
-    /// Where its numbers stand among those that force elements own.
+    /// Offset of its numbers among those of force elements.
     first: usize,
-    /// Its frame among those of an instant.
+    /// Index of its frame.
     pub(crate) frame: usize,
-    /// â and the hub's place, axes of the frame.
+    /// â and the hub's position, axes of the frame.
     axis: V3<S>,
     hub: V3<S>,
     mass: S,
-    /// What resists being accelerated: m_h, or m_h |â × r|² + J.
+    /// Inertia: m_h, or m_h |â × r|² + J.
     inertia: S,
     turns: Option<Turns<S>>,
     gravity: S,
     force: FunctionLaw<S>,
     /// K.
     pub(super) stiffness: S,
-    /// The stroke at which it ends.
+    /// End of the stroke.
     end: S,
 }
 
-/// What a hinge has besides.
+/// Additional constants of a hinge.
 #[derive(Clone, Copy, Debug)]
 struct Turns<S> {
     /// A point of the axis, axes of the frame.
@@ -63,19 +63,19 @@ struct Turns<S> {
     inertia: S,
 }
 
-/// What a column does at one instant.
+/// State of a column at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Now<S> {
-    /// x, ẋ and the work taken up.
+    /// x, ẋ and absorbed work.
     pub(super) own: [S; 3],
     /// S.
     pub(super) force: S,
-    /// f(x_m) and x_m − f/K, what stays of the stroke.
+    /// f(x_m) and the permanent stroke x_m − f/K.
     pub(super) set: S,
-    /// ½m_hẋ² + S²/2K, and what is lost, J.
+    /// Stored energy ½m_hẋ² + S²/2K, and dissipated energy, J.
     pub(super) stored: S,
     pub(super) lost: S,
-    /// 1 from the end of its stroke on.
+    /// 1 beyond the end of its stroke.
     pub(super) bottoms: S,
 }
 
@@ -97,13 +97,13 @@ impl ColumnLaw<f64> {
         }
     }
 
-    /// Appends its numbers as they begin: it stands.
+    /// Appends its initial numbers: at rest.
     pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
         self.first = numbers.len();
         numbers.extend([0.0; 3]);
     }
 
-    /// What ended a run, if it went beyond the end of its force.
+    /// Reason of a run's end, if it exceeded its force curve.
     pub(super) fn overrun(&self, name: &str, past: &ColumnPast<f64>) -> Option<String> {
         let (of, shown): (_, fn(f64) -> String) = match self.turns {
             None => ("stroke", |x| format!("{:.1} mm", 1e3 * x)),
@@ -137,15 +137,15 @@ impl<S: Copy> ColumnLaw<S> {
 }
 
 impl<S: Scalar> ColumnLaw<S> {
-    /// x, ẋ and the work taken up; none of a body that is only being placed.
+    /// x, ẋ and absorbed work; none while a body is being positioned.
     #[inline(always)]
     pub(super) fn moved(&self, state: &State<S>) -> Option<[S; 3]> {
         let own = state.own().get(self.first..self.first + 3)?;
         Some(std::array::from_fn(|i| own[i] * S::of(UNITS[i])))
     }
 
-    /// Moves its frame, which stands among `frames` as the parent carries it, by its stroke. The acceleration stays that of the
-    /// parent's axes there.
+    /// Moves its frame, which `frames` contains as carried by the parent, by its stroke. The acceleration stays that of
+    /// the parent's axes there.
     #[inline(always)]
     pub(super) fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
         let Some([stroke, speed, _]) = self.moved(state) else { return };
@@ -162,7 +162,7 @@ impl<S: Scalar> ColumnLaw<S> {
         frames[self.frame] = Moving { velocity, ..carried };
     }
 
-    /// What holds it, with the stroke that it remembers.
+    /// Its force and energies at the stored stroke.
     #[inline(always)]
     pub(super) fn now(&self, own: [S; 3], past: &ColumnPast<S>) -> Now<S> {
         let (half, [stroke, speed, _]) = (S::of(0.5), own);
@@ -217,7 +217,7 @@ impl<S: Scalar> ColumnLaw<S> {
         self.mass * self.axis(at).dot(felt)
     }
 
-    /// Writes the rates of its numbers where the forces of bodies push it along its axis and the motion of the parent drags it.
+    /// Writes the rates of its numbers, under the push of bodies and the drag of the parent's motion.
     #[inline(always)]
     pub(super) fn flow(&self, now: &Now<S>, push: S, drag: S, rates: &mut [S]) {
         let speed = now.own[1];

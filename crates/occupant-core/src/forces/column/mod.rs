@@ -27,7 +27,7 @@ pub use past::ColumnPast;
 use placed_text::Problems;
 pub use results::ColumnAction;
 
-/// Place of the work that columns take up.
+/// Index of the work absorbed by columns.
 const WORK: usize = 6;
 
 const OTHER_COLUMNS: Unlike = Unlike("the columns carry other frames or have other numbers of points of their force");
@@ -37,11 +37,11 @@ const OTHER_COLUMNS: Unlike = Unlike("the columns carry other frames or have oth
 pub struct Giving<const TURNS: bool>;
 /// Steering columns.
 pub type Columns = Giving<false>;
-/// Hinges, as of the back of a seat.
+/// Hinges, such as seat recliners.
 pub type Hinges = Giving<true>;
 
 impl<const TURNS: bool> Giving<TURNS> {
-    /// What columns and hinges take up is one sum, which stands among those of columns.
+    /// Columns and hinges share one work sum.
     const WORK: &'static [WorkSum] = &[WorkSum {
         at: WORK,
         quantity: Quantity::number(Unit::Joule, |taken_j: &f64| *taken_j)
@@ -146,7 +146,7 @@ impl<const TURNS: bool> Element for Giving<TURNS> {
         data.those(TURNS).zip(Self::new(data, body)).map(rate).collect()
     }
 
-    /// It stores nothing that the ledger of a body has, and so stands in no body's books.
+    /// It has no stored energy in a body's ledger.
     fn segment(_: &Vec<ColumnLaw<f64>>, _: &[Site<f64>], _: usize, _: &ColumnAction<f64>) -> usize {
         0
     }
@@ -160,14 +160,14 @@ impl<S> Forces<S> {
         !(self.columns.is_empty() && self.hinges.is_empty())
     }
 
-    /// Frames that yield, in the order of their places.
+    /// Yielding frames, in order.
     pub(crate) fn giving(&self) -> impl Iterator<Item = usize> {
         let all = || self.columns.iter().chain(&self.hinges);
         (0..MOST_GIVING).filter_map(move |place| all().find(|one| one.place == place).map(|one| one.frame))
     }
 }
 
-/// Moves the frames of columns, which stand among `frames` as their parents carry them, by their strokes.
+/// Moves the frames of columns, which `frames` contains as carried by their parents, by their strokes.
 #[inline(always)]
 pub(crate) fn carry<S: Scalar>(law: &[ColumnLaw<S>], state: &State<S>, frames: &mut Frames<S>) {
     for column in law {
@@ -175,8 +175,8 @@ pub(crate) fn carry<S: Scalar>(law: &[ColumnLaw<S>], state: &State<S>, frames: &
     }
 }
 
-/// What a column does. The work of a body along the stroke, which its books have as one of the frame, is the column's; what the
-/// motion of the parent does to the hub stands in the books of the first body, on both sides.
+/// Action of a column. The work of a body along the stroke, booked as done on the frame, is the column's; the work of
+/// the parent's motion on the hub is booked on both sides of the first body.
 #[inline(always)]
 fn act<S: Scalar>(
     law: &ColumnLaw<S>,

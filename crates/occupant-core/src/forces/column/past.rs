@@ -2,21 +2,21 @@
 
 use crate::motion::scalar::Scalar;
 
-/// Memory of a column.
+/// Stored state of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColumnPast<S> {
     /// x_m, the largest stroke, m.
     pub(super) greatest: S,
-    /// Largest residual of its book and largest work that it took up so far, J.
+    /// Largest residual of its energy balance and largest absorbed work so far, J.
     pub(super) residual: S,
     pub(super) taken: S,
 }
 
 impl<S> ColumnPast<S> {
-    /// How many numbers it has.
+    /// Number of its numbers.
     pub(super) const SIZE: usize = 3;
 
-    /// f called with every number and the one in the same place of `other`.
+    /// Calls f with every number and its counterpart in `other`.
     pub(super) fn each<A>(&mut self, other: &mut ColumnPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
         f(&mut self.greatest, &mut other.greatest);
         f(&mut self.residual, &mut other.residual);
@@ -31,7 +31,7 @@ impl<A: Copy> ColumnPast<A> {
 }
 
 impl<S: Scalar> ColumnPast<S> {
-    /// Of a column that has not stroked.
+    /// Stored state without stroke.
     pub(super) fn none() -> Self {
         ColumnPast { greatest: S::zero(), residual: S::zero(), taken: S::zero() }
     }

@@ -14,7 +14,7 @@ use crate::forces::table::{Cell, Column as TableColumn, Table};
 use crate::motion::scalar::Scalar;
 use crate::quantity::{FieldWords, Quantity};
 
-/// What one column does at one instant.
+/// Action of one column at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct ColumnAction<S> {
     /// x, m, and ẋ, m/s.
@@ -23,20 +23,20 @@ pub struct ColumnAction<S> {
     /// S, and Q·â of bodies and bags, N.
     force: S,
     push: S,
-    /// Taken up since the start, stored and lost, J.
+    /// Absorbed, stored and dissipated energy since the start, J.
     taken: S,
     stored: S,
     lost: S,
-    /// What stays of the stroke, m.
+    /// Permanent stroke, m.
     set: S,
-    /// 1 from the end of its stroke on.
+    /// 1 beyond the end of its stroke.
     bottoms: S,
-    /// Largest residual of its book over the largest work taken up.
+    /// Largest residual of its energy balance, relative to the largest absorbed work.
     residual: S,
 }
 
 impl<S: Scalar> ColumnAction<S> {
-    /// Of a column while the body is placed.
+    /// Action while the body is being positioned.
     #[inline(always)]
     pub(super) fn idle() -> Self {
         let o = S::zero();
@@ -72,9 +72,9 @@ impl<S: Scalar> ColumnAction<S> {
     }
 }
 
-/// Work below which a residual of a column's book is compared with this, J.
+/// Least reference work for the residual of the energy balance, J.
 const LEAST_J: f64 = 1e-3;
-/// A stroke that stays and is more than rounding, m.
+/// Least permanent stroke above rounding, m.
 const GIVEN_M: f64 = 1e-6;
 
 type Of<const TURNS: bool> = Quantity<OneOf<Giving<TURNS>>>;
@@ -83,7 +83,7 @@ const fn peak(column: TableColumn) -> Tracked {
     Tracked { column, time: None, at_least_zero: true }
 }
 
-/// With the time at which the peak was first reached, under these names in JSON and among the measures.
+/// With the time of the peak, under these names in JSON and among the measures.
 const fn timed(column: TableColumn, key: &'static str, measure: &'static str) -> Tracked {
     Tracked { time: Some(TableColumn::time(key).measure(measure, Second)), ..peak(column) }
 }
@@ -121,7 +121,7 @@ impl<const TURNS: bool> Giving<TURNS> {
         timed(scaled(1e-3, TableColumn::number("peak_n", "force, kN", 2)).measure("peak", Newton), "peak_time_s", "peak_time"),
         peak(TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
         timed(TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
-        peak(scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
+        peak(scaled(1e6, TableColumn::number("book_error", "energy error, 1e-6", 1)).measure("book_error", One)),
     ];
 
     #[rustfmt::skip]
@@ -130,7 +130,7 @@ impl<const TURNS: bool> Giving<TURNS> {
         timed(TableColumn::number("peak_n_m", "moment, N·m", 0).measure("peak", NewtonMetre), "peak_time_s", "peak_time"),
         peak(TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
         timed(TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
-        peak(scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
+        peak(scaled(1e6, TableColumn::number("book_error", "energy error, 1e-6", 1)).measure("book_error", One)),
     ];
 }
 

@@ -15,15 +15,16 @@ use crate::forces::pace::Pace;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// A sphere in touch comes closer by this part of its radius at a step, at most.
+/// Largest approach of a sphere in contact per step, as a fraction of its radius.
 const PART: f64 = 0.5;
-/// How far beyond the place of touch the step ends, as a part of the radius.
+/// Distance of the step's end beyond first contact, as a fraction of the radius.
 const BEYOND: f64 = 1e-3;
-/// A centre this near to the place of touch, as a part of the radius, is there.
+/// Distance from first contact, as a fraction of the radius, that counts as contact.
 const THERE: f64 = 1e-4;
-/// What closes with less than this part of its speed only grazes: it comes no deeper at a step than this part of its way.
+/// Fraction of its speed below which an approaching sphere only grazes: its penetration per step is at most this
+/// fraction of its path.
 const GRAZES: f64 = 0.02;
-/// A way is followed in at most so many leaps; a centre that is led straight at a plane is there after one.
+/// Largest number of iterations along a path; a centre that moves straight towards a plane needs one.
 const MOST_LEAPS: usize = 60;
 /// Relative speeds are looked for above this, m/s: with the sum of two such and their turning nothing reaches [`FASTEST_M_S`].
 const FAST_M_S: f64 = 40.0;

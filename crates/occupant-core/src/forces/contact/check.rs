@@ -14,10 +14,10 @@ use crate::forces::element::Instant;
 use crate::forces::function::steps::Steps;
 use placed_text::{Problem, Problems, with_key};
 
-/// What is wrong where the number of neighbours grows with the square of the things.
+/// Problem of a number of neighbours that grows with the square of the number of objects.
 const CROWD: &str = "too many neighbours to compare";
 
-/// More pairs of sphere and surface than this are a slip, or a mesh that should be made coarser.
+/// Largest number of pairs of sphere and surface; more is a mistake, or a mesh that should be made coarser.
 const MOST_PAIRS: usize = 200_000;
 
 pub(super) fn check(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
@@ -170,7 +170,7 @@ pub(super) fn crowds(faces: &[FlatFace], problems: &mut Problems) {
     }
 }
 
-/// With more contacts at the start each millisecond of the run would take minutes.
+/// Largest number of contacts at the start: with more, each millisecond of the run would take minutes.
 const MOST_TOUCHING: usize = 2000;
 
 /// Refuses a body that touches things by thousands: their springs and friction act together, so that the steps that bear them

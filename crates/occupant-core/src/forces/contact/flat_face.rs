@@ -10,7 +10,7 @@ use placed_text::Problems;
 
 /// Points closer than this are the same point, m.
 pub(super) const SAME_M: f64 = 1e-6;
-/// A polygon of more corners is a disc, or a slip.
+/// Largest number of corners of a polygon; more is a disc, or a mistake.
 const MOST_CORNERS: usize = 100;
 /// cos 30°.
 const COS_30: f64 = 0.866_025_403_784_438_6;
@@ -18,7 +18,7 @@ const COS_30: f64 = 0.866_025_403_784_438_6;
 /// A surface whose plane and open side are known, in the axes of its frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlatFace {
-    /// What it is fixed to.
+    /// Frame that carries it.
     pub frame: Frame,
     /// N̂, towards the open side.
     pub normal: Vector3<f64>,

@@ -40,7 +40,7 @@ pub(crate) enum ForceLaw<S> {
     Deflection(Box<DeflectionLaw<S>>),
 }
 
-/// How a sphere meets a material.
+/// Kinematics of a contact between a sphere and a material.
 #[derive(Clone, Copy)]
 pub(super) struct Meeting<S> {
     /// Δ and Δ_m, m.
@@ -55,7 +55,7 @@ pub(super) struct Meeting<S> {
 }
 
 impl<S: Scalar> Approach<S> {
-    /// With a point A that lies `lever` from the centre against N̂.
+    /// Contact with its point A at `lever` from the centre against N̂.
     #[inline(always)]
     pub(super) fn meeting(&self, normal: V3<S>, lever: S, depth: S, greatest: S, weight: S) -> Meeting<S> {
         let velocity = self.velocity + self.omega.cross(normal * -lever);
@@ -84,7 +84,7 @@ impl<S: Scalar> Law<S> {
 }
 
 impl MaterialLaw<f64> {
-    /// Of a material whose forces are multiplied by `share`.
+    /// Law of a material with all forces multiplied by `share`.
     pub(super) fn new(material: &Material, share: f64) -> Self {
         MaterialLaw {
             force: ForceLaw::new(&material.force, share),

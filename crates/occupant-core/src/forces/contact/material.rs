@@ -6,7 +6,7 @@ use crate::forces::function::{Beyond, ForceDeflection};
 use crate::forces::spring::BilinearSpring;
 use placed_text::Problems;
 
-/// Whether crush is remembered.
+/// Memory of crush.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -32,7 +32,7 @@ pub struct Material {
     pub friction_factors: [Vec<[f64; 2]>; 2],
     /// v_s, speed at which friction reaches 1/√2 of its full value. Default 0.127 m/s (5 in/s).
     pub friction_speed_m_s: f64,
-    /// What is remembered after opening.
+    /// Memory after the contact opens.
     pub memory: Memory,
     /// When a surface or solid of it breaks as a whole; none of what never does.
     pub breaks: Option<Breaking>,

@@ -42,12 +42,12 @@ use placed_text::Problems;
 use self_contact::SelfContact;
 use solid::{Member, lever};
 
-/// Place of the work put into contacts along their normals and edge bands, stored and dissipated.
+/// Index of the work done on contacts along their normals and edge bands, stored and dissipated.
 pub const PRESS: usize = 0;
-/// Place of the work that friction dissipates.
+/// Index of the work dissipated by friction.
 pub const FRICTION: usize = 1;
 
-/// What a setup says of contacts.
+/// Contact data of a setup.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactData<'a> {
     /// Surfaces of vehicle and space.
@@ -56,15 +56,16 @@ pub struct ContactData<'a> {
     pub faces: &'a [FlatFace],
     /// Solids of vehicle and space.
     pub solids: &'a [Solid],
-    /// Surfaces, and solids behind all surfaces, that the spine leans on: what rides on plates does not ride there.
+    /// Surfaces, and solids after all surfaces, that support the spine: spheres that move with plates do not move
+    /// there.
     pub behind: &'a [usize],
-    /// What the body does to itself, if anything.
+    /// Contact of the body with itself, if any.
     pub self_contact: Option<&'a SelfContact>,
     /// Materials.
     pub materials: &'a [Material],
     /// Where the edge force acts.
     pub edge_force: EdgeForce,
-    /// The longest step that the integrator can take, s.
+    /// Longest step of the integrator, s.
     pub longest_step_s: f64,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::motion::scalar::Scalar;
 
-/// A cubic from x₀ on.
+/// Cubic polynomial from x₀ on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cubic<S> {
     /// x₀.
@@ -45,7 +45,7 @@ impl<S: Scalar> Cubic<S> {
 }
 
 impl Cubic<f64> {
-    /// A straight line from a point on.
+    /// Straight line through a point.
     pub(crate) fn line([x, y]: [f64; 2], slope: f64) -> Self {
         Cubic { from: x, c: [y, slope, 0.0, 0.0] }
     }
@@ -55,8 +55,7 @@ impl Cubic<f64> {
         points.windows(2).map(|p| Cubic::line(p[0], secant(p))).collect()
     }
 
-    /// Cubics through points with rising x that rise and fall with the points alone (Fritsch and Carlson, SIAM J. Numer. Anal.
-    /// 17, 1980).
+    /// Monotone cubic interpolation of points with rising x (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980).
     pub(crate) fn monotone(points: &[[f64; 2]]) -> Vec<Self> {
         let secants: Vec<f64> = points.windows(2).map(secant).collect();
         let inner = secants.windows(2).map(|d| if d[0] * d[1] > 0.0 { 0.5 * (d[0] + d[1]) } else { 0.0 });

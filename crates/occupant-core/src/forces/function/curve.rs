@@ -14,15 +14,15 @@ use crate::motion::scalar::Scalar;
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionLaw<S> {
     pieces: Vec<Piece<S>>,
-    /// Its last point, and where it ends for good; 1e300 of what has none.
+    /// x of the last point, and of the final end; 1e300 where there is none.
     end: S,
     stop: S,
 }
 
-/// No last point.
+/// x that stands for "no last point".
 const NOWHERE: f64 = 1e300;
 
-/// One interval; what is said of its beginning has the index 0.
+/// One interval; values at its beginning have the index 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece<S> {
     /// f from x₀ on.
@@ -37,18 +37,18 @@ struct Piece<S> {
 }
 
 impl FunctionLaw<f64> {
-    /// The law of a function.
+    /// Law of a function.
     pub fn new(data: &Function) -> Self {
         let stop = if data.beyond == Beyond::Limits { data.end() } else { NOWHERE };
         FunctionLaw { end: data.end(), stop, ..Self::of(data.pieces()) }
     }
 
-    /// c₁x + c₂x² + c₃x³, of which everywhere the share μ comes back.
+    /// c₁x + c₂x² + c₃x³ with the constant returned fraction μ.
     pub fn polynomial([c1, c2, c3]: [f64; 3], returned: f64) -> Self {
         Self::of([(Cubic { from: 0.0, c: [0.0, c1, c2, c3] }, returned)])
     }
 
-    /// Whether any of its work does not come back.
+    /// Whether any of its work is dissipated.
     pub(crate) fn is_lossy(&self) -> bool {
         self.pieces.iter().any(|piece| piece.returned < 1.0)
     }
@@ -62,7 +62,7 @@ impl FunctionLaw<f64> {
         law
     }
 
-    /// The largest slope of loading and unloading up to x, and whether f falls anywhere on the way.
+    /// Largest slope of loading and unloading up to x, and whether f falls anywhere in this range.
     pub(crate) fn steepness(&self, x: f64) -> (f64, bool) {
         let ends = self.pieces.iter().skip(1).map(|next| next.f.from.min(x)).chain([x]);
         let slopes =
@@ -74,7 +74,7 @@ impl FunctionLaw<f64> {
 }
 
 impl FunctionLaw<f64> {
-    /// What ended a run, if `greatest`, of what it is the law of, is beyond the end of what is known: both, as `shown`.
+    /// The largest deformation and the end of the known range, as text, if the first exceeds the second.
     pub(crate) fn overrun(&self, of: &str, greatest: f64, shown: impl Fn(f64) -> String) -> Option<String> {
         let ends = "beyond the last point of a force function that says `beyond = \"limits\"`";
         (greatest > self.stop).then(|| format!("{of} went to {}, {ends}: {}", shown(greatest), shown(self.stop)))
@@ -102,13 +102,13 @@ impl<S: Scalar> Piece<S> {
         [self.way + share, self.energy + self.returned * work, self.lost + (S::one() - self.returned) * work]
     }
 
-    /// Slope at x₀: of a straight line everywhere.
+    /// Slope at x₀; constant for a straight line.
     #[inline(always)]
     fn slope(&self) -> S {
         self.f.c[1]
     }
 
-    /// 1/slope at x₀; 0 of a plateau. No constant of the law: a plateau that begins to rise has no slope of it.
+    /// 1/slope at x₀; 0 on a plateau. Not stored as a constant: a plateau that begins to rise has no slope of the law.
     #[inline(always)]
     fn give(&self) -> S {
         let (o, slope) = (S::zero(), self.slope());
@@ -122,7 +122,7 @@ impl<S: Copy> FunctionLaw<S> {
         self.end
     }
 
-    /// How many intervals it has; functions of equally many can be computed side by side.
+    /// Number of intervals; functions with equal numbers can be computed side by side.
     pub(crate) fn len(&self) -> usize {
         self.pieces.len()
     }
@@ -133,7 +133,7 @@ impl<S: Copy> FunctionLaw<S> {
     }
 }
 
-/// A force with its slope, and x* where loading has it.
+/// Force with its slope, and x*, the deformation of equal force in loading.
 pub(crate) struct Response<S> {
     pub(crate) force: S,
     pub(crate) slope: S,
@@ -141,8 +141,7 @@ pub(crate) struct Response<S> {
 }
 
 impl<S: Scalar> FunctionLaw<S> {
-    /// The last piece of which `begins` says that it begins before the place that is looked for, or the first. Of pieces in
-    /// order it says so of all before that one.
+    /// Last piece for which `begins` holds, or the first. In order of the pieces, it holds for all before that one.
     #[inline(always)]
     fn piece(&self, begins: impl Fn(&Piece<S>) -> S::Mask) -> Piece<S> {
         let Some((first, others)) = self.pieces.split_first() else {
@@ -160,7 +159,7 @@ impl<S: Scalar> FunctionLaw<S> {
         found
     }
 
-    /// Nothing to add; no number where the largest deformation is beyond the end of what is known.
+    /// Zero, or NaN where the largest deformation is beyond the end of the known range.
     #[inline(always)]
     pub(crate) fn unknown(&self, greatest: S) -> S {
         S::select(greatest.gt(self.stop), S::of(f64::NAN), S::zero())
@@ -172,13 +171,13 @@ impl<S: Scalar> FunctionLaw<S> {
         self.piece(|next| next.f.from.lt(x)).f.value(x)
     }
 
-    /// M, the recoverable energy, and what is lost up to x*.
+    /// M, the recoverable energy and the dissipated energy up to x*.
     #[inline(always)]
     pub fn returned_to(&self, loading: S) -> [S; 3] {
         self.piece(|next| next.f.from.lt(loading)).returned_to(loading)
     }
 
-    /// Force at `x` after a largest x_m.
+    /// Force at `x` after a largest deformation x_m.
     #[inline(always)]
     pub(crate) fn respond(&self, x: S, greatest: S) -> Response<S> {
         let o = S::zero();
@@ -194,13 +193,14 @@ impl<S: Scalar> FunctionLaw<S> {
         Response { force: S::select(pulls, f.value(loading), o), slope: S::select(pulls, slope, o), loading }
     }
 
-    /// Recoverable energy at `x` after a largest x_m.
+    /// Recoverable energy at `x` after a largest deformation x_m.
     #[inline(always)]
     pub(crate) fn stored(&self, x: S, greatest: S) -> S {
         self.returned_to(self.respond(x, greatest).loading)[1]
     }
 
-    /// x at which straight lines have the force `force` after a largest x_m, dx/dforce, and x*; the least where there are many.
+    /// x at which straight lines have the force `force` after a largest deformation x_m, dx/dforce, and x*; the least x
+    /// if there are several.
     #[inline(always)]
     pub(crate) fn reach(&self, force: S, greatest: S, set: S) -> (S, S, S) {
         let piece = self.piece(|next| next.f.c[0].lt(force));
@@ -211,7 +211,7 @@ impl<S: Scalar> FunctionLaw<S> {
         (x, S::select(loads, give, give * piece.returned), loading)
     }
 
-    /// Like [`FunctionLaw::reach`], with a spring of stiffness κ and length `rest` beside it.
+    /// Like [`FunctionLaw::reach`], with a parallel spring of stiffness κ and length `rest`.
     #[inline(always)]
     pub(crate) fn reach_beside(&self, force: S, greatest: S, set: S, [kappa, rest]: [S; 2]) -> (S, S, S) {
         // of a piece: the force of both where it begins, loading and unloading
@@ -227,13 +227,13 @@ impl<S: Scalar> FunctionLaw<S> {
         (x, give, S::select(loads, ahead, back))
     }
 
-    /// x_m − M(x_m), the deformation that stays.
+    /// x_m − M(x_m), the permanent set.
     #[inline(always)]
     pub(crate) fn set(&self, greatest: S) -> S {
         greatest - self.returned_to(greatest)[0]
     }
 
-    /// Where a line with the slope K and the value `from` at 0, steeper than f everywhere, crosses f; at least 0.
+    /// Intersection of f with a line of slope K and value `from` at 0, steeper than f everywhere; at least 0.
     #[inline(always)]
     pub(crate) fn crossing(&self, from: S, slope: S) -> S {
         let line = |p: &Piece<S>| from + slope * p.f.from;

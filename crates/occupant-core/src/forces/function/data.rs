@@ -6,107 +6,107 @@ use super::cubic::Cubic;
 use crate::forces::spring::LEAST_FRACTION;
 use placed_text::Problems;
 
-/// A loading curve f from (0, 0) on, and the share of its work that comes back.
+/// Loading curve f from (0, 0), and the fraction of its work that is returned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
     /// Deformation and force (N).
     pub points: Vec<[f64; 2]>,
     /// μ of each interval, 0 to 1.
     pub returned: Vec<f64>,
-    /// What it is between points.
+    /// Interpolation between points.
     pub shape: Shape,
-    /// What it is beyond the last.
+    /// Extrapolation beyond the last point.
     pub beyond: Beyond,
 }
 
-/// A curve between points.
+/// Interpolation of a curve between its points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "schema", schemars(rename = "ShapeChoice"))]
 pub enum Shape {
-    /// Straight.
+    /// Straight lines.
     #[default]
     Lines,
-    /// Smooth, rising and falling with the points alone.
+    /// Smooth and monotone between points.
     Monotone,
     /// c₁x + c₂x² + c₃x³ from the first point to the last.
     #[serde(skip)]
     Polynomial([f64; 3]),
 }
 
-/// A curve beyond its last point.
+/// Extrapolation of a curve beyond its last point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "schema", schemars(rename = "BeyondChoice"))]
 pub enum Beyond {
-    /// Goes on with its last slope.
+    /// Continues with its last slope.
     #[default]
     Extends,
     /// Keeps its last force.
     Holds,
-    /// Is not known: the run ends where it has gone beyond.
+    /// Ends the run: nothing is known beyond.
     Limits,
 }
 
-/// Force over depth of contact, with all that it may depend on besides.
+/// Force over depth of contact, with all effects that it may depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceDeflection {
-    /// f; its returned fractions count where `unloading` is by stretch.
+    /// f; its returned fractions count with [`Unloading::Stretch`].
     pub loading: Function,
-    /// The way back.
+    /// Unloading.
     pub unloading: Unloading,
     /// s, a force of the first loading that breaks down: from (0, 0) to force 0; empty if there is none.
     pub spike: Vec<[f64; 2]>,
-    /// c, a factor over the speed of deformation, m/s; empty: 1.
+    /// Factor c over the speed of deformation, m/s; empty: 1.
     pub rate: Vec<[f64; 2]>,
-    /// Damping C, N·s/m, and the depth at which it is fully there, m.
+    /// Damping C, N·s/m, and the depth from which it acts fully, m.
     pub viscous: Option<[f64; 2]>,
 }
 
-/// How the force goes back.
+/// Unloading path of the force.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unloading {
     /// Each interval by its returned fraction.
     Stretch,
-    /// With a slope K, N/m, down to a curve g; empty: 0.
+    /// With slope K, N/m, down to a curve g; empty: 0.
     Slope {
         /// K.
         n_per_m: f64,
         /// Points of g.
         least: Vec<[f64; 2]>,
     },
-    /// By the quadratic of the ATB program.
+    /// Quadratic of the ATB program.
     Quadratic {
-        /// R, the share that is to come back, over the largest deformation; one row: everywhere.
+        /// Returned fraction R over the largest deformation; one row: constant.
         returned: Vec<[f64; 2]>,
-        /// G, the deformation that stays, as a share of the largest, over that.
+        /// Permanent set G as a fraction of the largest deformation, over that deformation.
         set: Vec<[f64; 2]>,
     },
 }
 
-/// How a curve must go.
+/// Required shape of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Goes {
-    /// Every interval rises.
+    /// Rises in every interval.
     Up,
-    /// None falls, the first rises.
+    /// Falls in no interval, rises in the first.
     NotDown,
-    /// None falls, and one rises: the first may be a gap without force.
+    /// Falls in no interval and rises in at least one: the first may be a gap without force.
     NotDownFromGap,
-    /// As it will, above 0.
+    /// Any shape above 0.
     Anywhere,
 }
 
 impl Function {
-    /// Straight lines, of all of which the same share comes back.
+    /// Straight lines with one returned fraction.
     pub fn lines(points: Vec<[f64; 2]>, returned: f64) -> Self {
         let returned = vec![returned; points.len().saturating_sub(1)];
         Function { points, returned, shape: Shape::Lines, beyond: Beyond::Extends }
     }
 
-    /// Where it yields: its first point behind which it rises at most a quarter as steeply as it did before.
+    /// Yield point: the first beyond which the slope is at most a quarter of that before.
     pub(crate) fn yields(&self) -> Option<[f64; 2]> {
         let mut steepest = 0.0_f64;
         for (from, to) in self.points.iter().zip(self.points.iter().skip(1)) {
@@ -119,7 +119,7 @@ impl Function {
         self.points.last().copied().filter(|_| self.beyond == Beyond::Holds)
     }
 
-    /// Its cubics, each with its returned fraction.
+    /// Cubics of the curve, each with its returned fraction.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (Cubic<f64>, f64)> {
         let mut cubics = match self.shape {
             Shape::Lines => Cubic::lines(&self.points),
@@ -138,13 +138,13 @@ impl Function {
         cubics.into_iter().zip(shares)
     }
 
-    /// c₁x + c₂x² + c₃x³ up to a deformation, of which everywhere the same share comes back.
+    /// c₁x + c₂x² + c₃x³ up to a deformation, with one returned fraction.
     pub fn polynomial(c: [f64; 3], end: f64, returned: f64) -> Self {
         let force = ((c[2] * end + c[1]) * end + c[0]) * end;
         Function { shape: Shape::Polynomial(c), ..Function::lines(vec![[0.0; 2], [end, force]], returned) }
     }
 
-    /// The same with all forces multiplied by `share`.
+    /// Function with all forces multiplied by `share`.
     pub(crate) fn times(&self, share: f64) -> Self {
         let shape = match self.shape {
             Shape::Polynomial(c) => Shape::Polynomial(c.map(|c| share * c)),
@@ -159,7 +159,7 @@ impl Function {
         self.points.last().map_or(0.0, |point| point[0])
     }
 
-    /// The largest force within its points, N.
+    /// Largest force within its points, N.
     pub(crate) fn greatest_n(&self) -> f64 {
         self.points.iter().fold(0.0, |most, point| most.max(point[1]))
     }

@@ -18,7 +18,7 @@ use super::data::{ForceDeflection, Function, Unloading};
 use super::steps::Steps;
 use crate::motion::scalar::Scalar;
 
-/// Way on which a spike is gone after it turned, m.
+/// Distance after reversal over which a spike vanishes, m.
 const FADES_M: f64 = 2e-3;
 
 /// Constants of a force–deflection law.
@@ -39,7 +39,7 @@ enum Back<S> {
 }
 
 impl DeflectionLaw<f64> {
-    /// Of a law whose forces are multiplied by `share`.
+    /// Law with all forces multiplied by `share`.
     pub(crate) fn new(data: &ForceDeflection, share: f64) -> Self {
         let times = |points: &[[f64; 2]]| points.iter().map(|[x, force]| [*x, share * force]).collect();
         let elastic = |points: &[[f64; 2]]| FunctionLaw::new(&Function::lines(times(points), 1.0));
@@ -63,7 +63,7 @@ impl DeflectionLaw<f64> {
         }
     }
 
-    /// The least depth at which loading, at rest, reaches a force, m; none within 10 m.
+    /// Least depth at which static loading reaches a force, m; none within 10 m.
     pub(crate) fn depth_under(&self, force: f64) -> Option<f64> {
         let (mut low, mut high) = (0.0, 1e-3);
         while self.loading(high)[0] < force {
@@ -84,12 +84,12 @@ impl DeflectionLaw<f64> {
         self.loading.end()
     }
 
-    /// What ended a run, if the largest depth is beyond the end of what is known.
+    /// The largest depth and the end of the known range, as text, if the first exceeds the second.
     pub(crate) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
         self.loading.overrun(of, greatest, |depth| format!("{:.1} mm", 1e3 * depth))
     }
 
-    /// f and s together, and their work, up to a deformation.
+    /// f + s and its work, up to a deformation.
     pub(super) fn loading(&self, x: f64) -> [f64; 2] {
         let of = |law: &FunctionLaw<f64>| [law.value(x), law.returned_to(x)[1..].iter().sum()];
         let ([force, work], [more, again]) = (of(&self.loading), self.spike.as_ref().map_or([0.0; 2], of));
@@ -98,7 +98,7 @@ impl DeflectionLaw<f64> {
 }
 
 impl<S: Copy> DeflectionLaw<S> {
-    /// The same number by number with another; none if that has other parts or numbers of points.
+    /// Combines corresponding numbers of two laws; none if they differ in parts or numbers of points.
     pub(crate) fn zip<A: Copy, T>(&self, other: &DeflectionLaw<A>, f: &impl Fn(S, A) -> T) -> Option<DeflectionLaw<T>> {
         let unloading = match (&self.unloading, &other.unloading) {
             (Back::Stretch, Back::Stretch) => Back::Stretch,

@@ -10,13 +10,13 @@ use super::deflection::DeflectionLaw;
 use placed_text::Problems;
 
 impl ForceDeflection {
-    /// One of straight lines of which the same share of the work comes back.
+    /// Law of straight lines with one returned fraction.
     pub fn lines(points: Vec<[f64; 2]>, returned: f64) -> Self {
         let loading = Function::lines(points, returned);
         ForceDeflection { loading, unloading: Unloading::Stretch, spike: Vec::new(), rate: Vec::new(), viscous: None }
     }
 
-    /// Reports problems of it.
+    /// Reports problems of the law.
     pub(crate) fn check(&self, path: &str, all: &mut Problems) {
         let problems = &mut Problems::new();
         let by_slope = matches!(self.unloading, Unloading::Slope { .. });
@@ -88,7 +88,7 @@ impl ForceDeflection {
         }
     }
 
-    /// Whether D falls anywhere, and whether R is what comes back.
+    /// Checks that D falls nowhere, and whether R is the returned fraction.
     fn check_loss(&self, path: &str, problems: &mut Problems) {
         let law = DeflectionLaw::new(&ForceDeflection { rate: Vec::new(), viscous: None, ..self.clone() }, 1.0);
         let end = self.spike.last().map_or(0.0, |point| point[0]).max(self.loading.end());
@@ -114,14 +114,14 @@ impl ForceDeflection {
         }
     }
 
-    /// The largest damping that factors of speed and the damper make up to the last point, N·s/m.
+    /// Largest damping of the rate factor and the damper up to the last point, N·s/m.
     pub(crate) fn damping(&self) -> f64 {
         let slope = |rows: &[[f64; 2]]| (rows[1][1] - rows[0][1]) / (rows[1][0] - rows[0][0]);
         let steepest = self.rate.windows(2).map(slope).fold(0.0, f64::max);
         self.loading.greatest_n() * steepest + self.viscous.map_or(0.0, |[damping, _]| damping)
     }
 
-    /// The largest slope of loading and unloading up to its last point, N/m, by differences.
+    /// Largest slope of loading and unloading up to the last point, N/m, by differences.
     pub(crate) fn steepest(&self) -> f64 {
         let law = DeflectionLaw::new(self, 1.0);
         let (end, step) = (self.loading.end(), 1e-6 * self.loading.end());

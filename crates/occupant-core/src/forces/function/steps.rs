@@ -21,7 +21,7 @@ impl<S: Scalar> Steps<S> {
         Steps(rows.iter().map(|row| row.map(S::of)).collect())
     }
 
-    /// Value at x; 0 of no rows.
+    /// Value at x; 0 of an empty table.
     #[inline(always)]
     pub(crate) fn at(&self, x: S) -> S {
         let Some(first) = self.0.first() else { return S::zero() };
@@ -32,7 +32,7 @@ impl<S: Scalar> Steps<S> {
         value
     }
 
-    /// A force times the value at x; as it is where there are no rows.
+    /// Force times the value at x; unchanged with an empty table.
     #[inline(always)]
     pub(crate) fn scale(&self, force: S, x: S) -> S {
         if self.0.is_empty() { force } else { force * self.at(x) }

@@ -71,7 +71,7 @@ fn what_a_closed_path_loses_follows_from_the_greatest_alone() {
     }
 }
 
-/// A curve that stiffens and one with a peak, back in every way.
+/// A stiffening curve and one with a peak, with every kind of unloading.
 fn laws() -> Vec<(&'static str, ForceDeflection)> {
     let points = vec![[0.0, 0.0], [0.01, 300.0], [0.03, 1200.0], [0.05, 3200.0]];
     let lines = |returned| ForceDeflection::lines(points.clone(), returned);
@@ -103,8 +103,8 @@ fn said(law: &ForceDeflection) -> Vec<String> {
     problems.iter().map(ToString::to_string).collect()
 }
 
-/// U is the antiderivative of the force at a constant largest deformation, and what is lost grows with that alone: so the work
-/// of every path is what is stored and lost.
+/// U is the antiderivative of the force at a constant largest deformation, and dissipation grows with that alone: so
+/// the work along every path equals stored plus dissipated energy.
 #[test]
 fn the_force_is_the_slope_of_the_recoverable_energy() {
     let mut seed = 4;
@@ -152,7 +152,7 @@ fn the_force_does_not_jump_on_any_path() {
     }
 }
 
-/// A mass thrown against each law comes back with the energy that the law returns.
+/// A mass thrown against each law rebounds with the energy that the law returns.
 #[test]
 fn a_mass_rebounds_with_what_is_returned() {
     for (name, data) in laws() {
@@ -206,7 +206,7 @@ fn a_damper_is_there_from_its_depth_on_and_never_pulls() {
     }
 }
 
-/// The share that the ATB program's quadratic returns of a curve, at its last point.
+/// Fraction that the ATB program's quadratic returns of a curve's work, at its last point.
 fn returned(points: Vec<[f64; 2]>, r: f64, g: f64) -> (f64, Vec<String>) {
     let unloading = Unloading::Quadratic { returned: vec![[0.0, r]], set: vec![[0.0, g]] };
     let data = ForceDeflection { unloading, ..ForceDeflection::lines(points, 1.0) };

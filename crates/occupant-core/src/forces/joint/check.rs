@@ -80,10 +80,10 @@ fn check_stop(stop: &Stop, sign: f64, damping: f64, path: &str, problems: &mut P
     }
 }
 
-/// A joint may begin this far beyond its stop, rad: stops are dampers, and people stretch their arms.
+/// Angle beyond its stop at which a joint may begin, rad: stops are dampers, and people stretch their arms.
 const BEYOND_RAD: f64 = 0.2;
 
-/// Joints that begin beyond their stops, in a posture that the body cannot take.
+/// Warns of joints that begin beyond their stops, in an impossible posture.
 pub(super) fn start(joints: &Joints, law: &JointSystem<f64>, at: &Instant<'_, f64>, problems: &mut Problems) {
     let balls = law.balls.iter().enumerate().map(|(i, ball)| (ball.joint, law.beta(i, at.k)));
     let hinges = law.hinges.iter().zip(at.state.hinge()).map(|(hinge, angle_rad)| (hinge.joint, *angle_rad));

@@ -8,7 +8,7 @@ use crate::body::{Joint, Tree};
 use crate::forces::joint::limit::Limits;
 use crate::forces::joint::muscle::Muscle;
 
-/// A spring of a neck that leaves the moment to its limit: half of what a dummy's has.
+/// Stiffness up to which a neck's spring leaves the moment to its limit, N·m/rad: half of a dummy's.
 const SOFT_NECK_N_M_RAD: f64 = 20.0;
 
 /// Damping that rises towards a limit of travel (Figs 9–11): from the joint's normal damping at `begin_rad` linearly to
@@ -37,31 +37,31 @@ pub struct AngularSpring {
 pub struct BallJoint {
     /// J_N, N·m·s/rad.
     pub damping_n_m_s: f64,
-    /// J_t, resistance to relative turning about the distal segment's Z; 0 in the report.
+    /// J_t, damping of rotation about the distal segment's Z; 0 in the report.
     pub twist_damping_n_m_s: f64,
     /// Limit of β.
     pub stop: Option<Stop>,
-    /// Elasticity; the report has it in the two back joints.
+    /// Spring; in the report, in the two back joints.
     pub spring: Option<AngularSpring>,
 }
 
-/// An elbow or a knee; α is the turn of the distal segment about the common Y axis.
+/// Elbow or knee; α is the rotation of the distal segment about the common Y axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HingeJoint {
     /// J_N, N·m·s/rad.
     pub damping_n_m_s: f64,
-    /// Works while α falls.
+    /// Stop while α falls.
     pub lower_stop: Option<Stop>,
-    /// Works while α rises.
+    /// Stop while α rises.
     pub upper_stop: Option<Stop>,
 }
 
-/// What acts in a joint.
+/// Law of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointLaw {
-    /// In a ball joint.
+    /// Ball joint.
     Ball(BallJoint),
-    /// In a hinge.
+    /// Hinge.
     Hinge(HingeJoint),
 }
 
@@ -78,7 +78,7 @@ impl From<HingeJoint> for JointLaw {
 }
 
 impl JointLaw {
-    /// That of a ball joint.
+    /// Law of a ball joint.
     pub fn ball(&self) -> Option<&BallJoint> {
         match self {
             JointLaw::Ball(ball) => Some(ball),
@@ -86,7 +86,7 @@ impl JointLaw {
         }
     }
 
-    /// That of a hinge.
+    /// Law of a hinge.
     pub fn hinge(&self) -> Option<&HingeJoint> {
         match self {
             JointLaw::Hinge(hinge) => Some(hinge),
@@ -95,7 +95,7 @@ impl JointLaw {
     }
 }
 
-/// What acts in the joints of a body; every law is of the kind that the tree says.
+/// Laws of the joints of a body; each is of the tree's kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joints {
     tree: &'static Tree,
@@ -104,12 +104,12 @@ pub struct Joints {
     pub limits: Vec<Limits>,
     /// Muscles, in the tree's order.
     pub muscles: Vec<Muscle>,
-    /// ε that keeps β smooth where the two Z axes are parallel; 0 is the report's formula.
+    /// ε that keeps β differentiable where the two Z axes are parallel; 0 gives the report's formula.
     pub epsilon: f64,
 }
 
 impl Joints {
-    /// ε unless a scenario says otherwise.
+    /// Default of ε.
     pub const EPSILON: f64 = 1e-3;
 
     /// Free joints: no damping, no stop, no spring.
@@ -117,14 +117,14 @@ impl Joints {
         Joints::alike(tree, BallJoint::default(), HingeJoint::default())
     }
 
-    /// All ball joints alike, and all hinges.
+    /// One law for all ball joints, and one for all hinges.
     pub fn alike(tree: &'static Tree, ball: BallJoint, hinge: HingeJoint) -> Self {
         let law = |joint: Joint| if tree[joint].is_hinge() { hinge.into() } else { ball.into() };
         let laws = tree.joints().map(law).collect();
         Joints { tree, laws, limits: Vec::new(), muscles: Vec::new(), epsilon: Joints::EPSILON }
     }
 
-    /// Those of them that a tree has which is a part of this one.
+    /// Laws of the joints of a tree that is part of this one.
     pub fn of_tree(self, tree: &'static Tree) -> Self {
         if std::ptr::eq(self.tree, tree) {
             return self;
@@ -140,7 +140,7 @@ impl Joints {
         }
     }
 
-    /// Those of several bodies, whose tree is `tree`; ε is that of the first.
+    /// Laws of several bodies, whose tree is `tree`; ε is that of the first.
     pub(crate) fn together<'a>(tree: &'static Tree, all: impl Iterator<Item = &'a Joints>) -> Self {
         let mut sum = Joints { laws: Vec::new(), ..Joints::free(tree) };
         for (i, joints) in all.enumerate() {
@@ -156,7 +156,7 @@ impl Joints {
         sum
     }
 
-    /// With another law in one joint; one of the other kind, or of a joint that the tree has not, changes nothing.
+    /// Joints with another law in one joint; a law of the other kind, or a joint that the tree lacks, changes nothing.
     #[must_use]
     pub fn with(mut self, joint: Joint, law: impl Into<JointLaw>) -> Self {
         let law = law.into();
@@ -167,7 +167,7 @@ impl Joints {
         self
     }
 
-    /// With another ε.
+    /// Joints with another ε.
     #[must_use]
     pub fn with_epsilon(self, epsilon: f64) -> Self {
         Joints { epsilon, ..self }
@@ -178,7 +178,7 @@ impl Joints {
         !self.limits.is_empty()
     }
 
-    /// Whether the neck of a body is one joint with the limit of one of two, and no spring but a soft one.
+    /// Whether the neck of a body is one joint that has the limit of one of two neck joints, and no stiff spring.
     pub(crate) fn is_half_a_neck(&self) -> bool {
         let marks = self.tree.landmarks();
         let is_alone = |joint: &Joint| Some(self.tree[*joint].proximal) == marks.chest;
@@ -189,17 +189,17 @@ impl Joints {
         !has_spring && own.any(|limits| is_soft(limits) && limits.is_of_half_a_neck())
     }
 
-    /// The joints' tree.
+    /// Tree of the joints.
     pub fn tree(&self) -> &'static Tree {
         self.tree
     }
 
-    /// All joints with what acts in them, in the tree's order.
+    /// All joints with their laws, in the tree's order.
     pub fn iter(&self) -> impl Iterator<Item = (Joint, &JointLaw)> {
         self.tree.joints().zip(&self.laws)
     }
 
-    /// The law of a ball joint, to change its numbers; none of a hinge, or of a joint that the tree has not.
+    /// Mutable law of a ball joint; none for a hinge, or a joint that the tree lacks.
     pub fn ball_mut(&mut self, joint: Joint) -> Option<&mut BallJoint> {
         match self.laws.get_mut(joint.index())? {
             JointLaw::Ball(ball) => Some(ball),
@@ -207,7 +207,7 @@ impl Joints {
         }
     }
 
-    /// The law of a hinge, to change its numbers; none of a ball joint, or of a joint that the tree has not.
+    /// Mutable law of a hinge; none for a ball joint, or a joint that the tree lacks.
     pub fn hinge_mut(&mut self, joint: Joint) -> Option<&mut HingeJoint> {
         match self.laws.get_mut(joint.index())? {
             JointLaw::Hinge(hinge) => Some(hinge),

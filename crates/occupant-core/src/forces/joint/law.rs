@@ -17,13 +17,13 @@ use crate::motion::state::State;
 use crate::motion::vector::V3;
 use occupant_units::trig;
 
-/// Damping that rises from `begin` over `1/slope` radians by `rise`.
+/// Damping that rises from angle `begin` by `rise` over `1/slope` radians.
 #[derive(Clone, Copy, Debug)]
 struct Limit<S> {
     begin: S,
     slope: S,
     rise: S,
-    /// Where it is full.
+    /// Angle of full damping.
     full: S,
 }
 
@@ -39,7 +39,7 @@ impl<S: Copy> Limit<S> {
 }
 
 impl<S: Scalar> Limit<S> {
-    /// `sign` is −1 for a stop met by falling angles.
+    /// `sign` is −1 for a stop reached by falling angles.
     fn new(stop: Option<Stop>, damping: f64, sign: f64) -> Self {
         // far outside any angle where there is no stop
         let none = Limit { begin: S::of(1e9), slope: S::one(), rise: S::zero(), full: S::of(1e9) };
@@ -65,12 +65,12 @@ pub struct Ball<S> {
     pub joint: Joint,
     /// Proximal and distal segment.
     pub segments: (usize, usize),
-    /// Z of the triads in axes of these segments; none if they are theirs.
+    /// Z of the triads in axes of these segments; none if they are the segments' Z.
     z: Option<[V3<S>; 2]>,
     damping: S,
     twist: S,
     stop: Limit<S>,
-    /// cos β_N·√(1 + ε²): where Z_k·Z_l is greater, the stop has not begun and β is not needed for it.
+    /// cos β_N·√(1 + ε²): where Z_k·Z_l exceeds it, the stop does not act and β is not needed.
     stop_cosine: S,
     stiffness: S,
     rest: S,
@@ -89,7 +89,7 @@ pub struct Hinge<S> {
     upper: Limit<S>,
 }
 
-/// Force laws of all joints; none by default.
+/// Force laws of all joints.
 #[derive(Clone, Debug, Default)]
 pub struct JointSystem<S> {
     /// In the tree's order of joints.
@@ -99,16 +99,16 @@ pub struct JointSystem<S> {
     epsilon_squared: S,
 }
 
-/// What a joint does at one instant.
+/// State of a joint at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct JointAction<S> {
-    /// Moment on segment l (the opposite on k), space axes, N·m.
+    /// Moment on segment l (reaction on k), space axes, N·m.
     pub moment: V3<S>,
     /// Energy stored in the spring, J.
     pub stored: S,
     /// Power dissipated by damper and stop, W.
     pub dissipated: S,
-    /// How far it is beyond the end of its stop while it moves into it; of a hinge beyond those of the upper and the lower one; rad.
+    /// Angle beyond the end of its stop while moving into it, rad; of a hinge, beyond the upper and the lower stop.
     pub(crate) beyond: [S; 2],
 }
 
@@ -143,7 +143,7 @@ impl<S: Copy> Hinge<S> {
 }
 
 impl<S: Copy> JointSystem<S> {
-    /// f applied to every number and the one in the same place of `other`, which has the same joints with springs in the same.
+    /// f applied to corresponding numbers of this and `other`, which has the same joints and springs.
     pub(crate) fn zip<A: Copy, T>(&self, other: &JointSystem<A>, f: &impl Fn(S, A) -> T) -> JointSystem<T> {
         JointSystem {
             balls: self.balls.iter().zip(&other.balls).map(|(a, b)| a.zip(b, f)).collect(),
@@ -152,14 +152,15 @@ impl<S: Copy> JointSystem<S> {
         }
     }
 
-    /// Which ball joints have a spring, and which triads of their own.
+    /// Presence of a spring and of own triads, by ball joint.
     pub(super) fn structure(&self) -> impl Iterator<Item = (Joint, bool, bool)> + '_ {
         self.balls.iter().map(|ball| (ball.joint, ball.has_spring, ball.z.is_some()))
     }
 }
 
 impl JointSystem<f64> {
-    /// Constants from data; `rest_rad` is β₀ of the ball joints that do not give their own, by [`JointSystem::balls`].
+    /// Constants from data; `rest_rad` is β₀ of the ball joints without their own, in the order of
+    /// [`JointSystem::balls`].
     pub fn new(joints: &Joints, skeleton: &Skeleton<f64>, rest_rad: impl Fn(usize) -> f64) -> Self {
         let (tree, layout) = (joints.tree(), &skeleton.layout);
         let balls = tree.joints().filter(|joint| !tree[*joint].is_hinge()).enumerate();
@@ -173,14 +174,15 @@ impl JointSystem<f64> {
 }
 
 impl<S: Scalar> JointSystem<S> {
-    /// Their loads alone.
+    /// Loads of the joints alone.
     pub fn loads(&self, k: &Kinematics<S>, state: &State<S>, layout: &Layout) -> Load<S> {
         let mut load = Load::zero(layout, []);
         self.apply(k, state, &mut load, &mut |_| {});
         load
     }
 
-    /// Adds all joint moments and the power that they dissipate to `load` and shows what the joints do, ball joints first.
+    /// Adds all joint moments and their dissipated power to `load` and shows the actions of the joints, ball joints
+    /// first.
     #[inline(always)]
     pub(crate) fn apply(
         &self,
@@ -212,7 +214,7 @@ impl<S: Scalar> JointSystem<S> {
         }
     }
 
-    /// What ball joint `i` of [`JointSystem::balls`] does.
+    /// Action of ball joint `i` of [`JointSystem::balls`].
     pub fn ball(&self, i: usize, k: &Kinematics<S>) -> JointAction<S> {
         self.balls[i].act(k, self.epsilon_squared)
     }
@@ -256,7 +258,7 @@ impl<S: Scalar> Ball<S> {
         }
     }
 
-    /// What it does.
+    /// Action of the joint.
     #[inline(always)]
     fn act(&self, k: &Kinematics<S>, epsilon_squared: S) -> JointAction<S> {
         let joint = self;
@@ -309,7 +311,7 @@ impl<S: Scalar> Hinge<S> {
         -(self.damping + upper + lower) * rate
     }
 
-    /// How far it is beyond the ends of the upper and the lower stop, rad.
+    /// Angles beyond the ends of the upper and the lower stop, rad.
     #[inline(always)]
     fn beyond(&self, angle: S) -> [S; 2] {
         let o = S::zero();

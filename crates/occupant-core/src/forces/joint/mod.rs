@@ -25,10 +25,10 @@ use crate::motion::skeleton::Skeleton;
 use crate::quantity::energy;
 use placed_text::Problems;
 
-/// Place of the work that dampers and stops dissipate.
+/// Index of the work dissipated by dampers and stops.
 pub const DAMPING: usize = 2;
 
-/// Springs in other joints.
+/// Springs at other joints.
 pub(crate) const OTHER_SPRINGS: Unlike = Unlike("other joints have springs");
 
 /// The kind of force element: moments in the joints.
@@ -66,7 +66,7 @@ impl Element for JointMoments {
         JointSystem::new(data, &Skeleton::new(body, 0.0), |_| 0.0)
     }
 
-    /// The springs are at rest where the body begins, unless they give their own angles.
+    /// Springs are at rest in the initial posture unless their angles are given.
     fn begin(law: &mut JointSystem<f64>, data: &Joints, body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
         check::start(data, law, at, problems);
         *law = JointSystem::new(data, &Skeleton::new(body, 0.0), |i| law.beta(i, at.k));

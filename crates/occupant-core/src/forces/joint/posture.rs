@@ -3,7 +3,7 @@
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};
 
-/// Axes of the outer segment along those of the inner one.
+/// Axes of the outer segment in those of the inner one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Posture<S>(pub(super) M3<S>);
 
@@ -15,7 +15,8 @@ impl<S: Copy> Posture<S> {
 }
 
 impl<S: Scalar> Posture<S> {
-    /// That of segments with the axes k and l, the outer one turned back by the rotation vector `back` of space axes, rad.
+    /// Posture of segments with the axes k and l, the outer one first turned back by the rotation vector `back`, space
+    /// axes, rad.
     #[inline(always)]
     pub(super) fn new(k: &M3<S>, l: &M3<S>, back: V3<S>) -> Self {
         let angle = length(back);
@@ -45,7 +46,7 @@ impl<S: Scalar> Posture<S> {
     }
 }
 
-/// Length of a vector, kept off zero by what no angle sees.
+/// Length of a vector, plus 1e-60 to avoid a zero derivative.
 #[inline(always)]
 pub(super) fn length<S: Scalar>(v: V3<S>) -> S {
     (v.norm_squared() + S::of(1e-60)).sqrt()

@@ -35,12 +35,12 @@ impl Joints {
     }
 }
 
-/// A ball joint of so much damping, in·lbf·s/rad.
+/// Ball joint with this damping, in·lbf·s/rad.
 fn ball(damping: f64, stop: Option<Stop>) -> BallJoint {
     BallJoint { damping_n_m_s: damping * INCH_POUND_N_M, stop, ..BallJoint::default() }
 }
 
-/// A stop by its angles in degrees and its damping in in·lbf·s/rad.
+/// Stop by its angles in degrees and its damping in in·lbf·s/rad.
 fn stop(begin_deg: f64, full_deg: f64, damping: f64) -> Option<Stop> {
     let [begin_rad, full_rad] = [begin_deg, full_deg].map(|angle_deg| angle_deg * DEGREE_RAD);
     Some(Stop { begin_rad, full_rad, damping_n_m_s: damping * INCH_POUND_N_M })

@@ -7,7 +7,7 @@ use crate::body::Joint;
 use crate::forces::rate::Rate;
 use crate::motion::mobility::{Mobility, greatest};
 
-/// Joints: the damper at its strongest, and the spring.
+/// Rates of joints: the damper at its strongest, and the spring.
 pub(super) fn rates(j: &Joints, mobility: &Mobility<'_>) -> Vec<Rate> {
     let name = |joint: Joint| j.tree()[joint].name;
     let mut rates = Vec::new();

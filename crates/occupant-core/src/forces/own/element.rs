@@ -21,22 +21,22 @@ use crate::motion::state::State;
 use crate::quantity::{FieldWords, Quantity, energy};
 use placed_text::Problems;
 
-/// Why a model with an own force has no place beside others and no derivatives.
+/// Reason why a model with an own force cannot be computed side by side and has no derivatives.
 pub(crate) const PLAIN: Unlike = Unlike("a program's own forces support neither lanes nor derivatives");
 
-/// The number of the state that says what a force has taken is so many J.
+/// Absorbed energy for which the state variable of a force is 1, J.
 const SCALE_J: f64 = 100.0;
 
-/// What the setup says.
+/// Setup data.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnData<'a> {
-    /// All of them.
+    /// All own forces.
     pub forces: &'a [OwnForce],
-    /// How many frames there are besides space and the vehicle.
+    /// Number of frames besides space and the vehicle.
     pub others: usize,
 }
 
-/// All own forces: with other numbers than plain ones there are none.
+/// All own forces; none with scalars other than plain numbers.
 #[derive(Clone, Debug, Default)]
 pub struct OwnLaw<S> {
     plain: OwnPlain,
@@ -49,7 +49,7 @@ impl<S> OwnLaw<S> {
     }
 }
 
-/// The forces, with what places of the body need.
+/// The forces, with the data that their points need.
 #[derive(Clone, Default)]
 pub struct OwnPlain {
     pub(super) forces: Vec<OwnForce>,
@@ -57,7 +57,7 @@ pub struct OwnPlain {
     pub(super) spheres: Vec<Site<f64>>,
     /// By segment: its joint from its lower end, m.
     pub(super) joints: Vec<Vector3<f64>>,
-    /// By force: its place among the own numbers of the state.
+    /// By force: its index among the state variables that elements own.
     own: Vec<usize>,
 }
 
@@ -67,19 +67,19 @@ impl fmt::Debug for OwnPlain {
     }
 }
 
-/// What one force does at one instant.
+/// State of one force at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnAction {
     segment: usize,
-    /// The largest of its forces, N.
+    /// Largest of its forces, N.
     force: f64,
-    /// What it has taken from the bodies since the start, stored or lost, J; below 0 what it gave.
+    /// Energy absorbed from the bodies since the start, stored or dissipated, J; negative: supplied.
     taken: f64,
     stored: f64,
     pub(crate) shown: [f64; MOST_CHANNELS],
 }
 
-/// The kind of force element: a program's own.
+/// The kind of force element: a program's own forces.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnForces;
 
@@ -88,7 +88,7 @@ impl OwnPlain {
         Scene { law: self, k, frames }
     }
 
-    /// Adds what all do.
+    /// Adds all forces.
     #[inline(never)]
     fn apply(
         &self,
@@ -114,7 +114,7 @@ impl OwnPlain {
     }
 }
 
-/// A thing of some scalar as one of plain numbers, if it is.
+/// A value of a scalar type as one of plain numbers, if it is.
 fn plain<T: Any, P: Any>(thing: &T) -> Option<&P> {
     (thing as &dyn Any).downcast_ref()
 }

@@ -18,7 +18,7 @@ use placed_text::{Problems, with_key};
 pub use element::{OwnAction, OwnData, OwnForces, OwnLaw};
 pub use scene::{Place, PointMotion, Pushes, Scene};
 
-/// Maximum count of numbers in a force's memory.
+/// Largest count of numbers in a force's memory.
 pub const MOST_MEMORY: usize = 16;
 /// Most channels of a force.
 pub const MOST_CHANNELS: usize = 8;
@@ -64,13 +64,13 @@ pub trait Force: Debug + Send + Sync {
     /// but not a count.
     fn accept(&self, _scene: &Scene<'_>, _memory: &mut [f64]) {}
 
-    /// Numbers that it shows with [`Pushes::show`]: at most [`MOST_CHANNELS`].
+    /// Values that it shows with [`Pushes::show`]: at most [`MOST_CHANNELS`].
     fn channels(&self) -> Vec<ForceChannel> {
         Vec::new()
     }
 }
 
-/// A number that a force shows: the channel `own_force.NAME.CHANNEL`.
+/// A value shown by a force: the channel `own_force.NAME.CHANNEL`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceChannel {
     /// Its name: small letters, digits and `_`.
@@ -80,23 +80,23 @@ pub struct ForceChannel {
 }
 
 impl ForceChannel {
-    /// A channel of this name and unit.
+    /// Channel with this name and unit.
     pub fn new(name: impl Into<String>, unit: Unit) -> Self {
         ForceChannel { name: name.into(), unit }
     }
 }
 
-/// A force with its name, as a setup has it. Two are equal if they are the same one, shared.
+/// Force with its name, as in a setup. Two are equal if they share one object.
 #[derive(Clone, Debug)]
 pub struct OwnForce {
     /// Its name: small letters, digits and `_`.
     pub name: String,
-    /// What it does.
+    /// The force.
     pub force: Arc<dyn Force>,
 }
 
 impl OwnForce {
-    /// A force under a name.
+    /// Force with a name.
     pub fn new(name: impl Into<String>, force: impl Force + 'static) -> Self {
         OwnForce { name: name.into(), force: Arc::new(force) }
     }

@@ -25,23 +25,23 @@ pub enum Place {
     Frame(Frame, Point3<f64>),
 }
 
-/// Where a point is and how it moves, space axes (X′ forward, Y′ left, Z′ up).
+/// Position and velocity of a point, space axes (X′ forward, Y′ left, Z′ up).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointMotion {
-    /// Place, m.
+    /// Position, m.
     pub place_m: Vector3<f64>,
     /// Velocity, m/s.
     pub velocity_m_s: Vector3<f64>,
 }
 
 impl PointMotion {
-    /// For something that does not exist.
+    /// Motion of a point that does not exist.
     fn nowhere() -> Self {
         PointMotion { place_m: Vector3::repeat(f64::NAN), velocity_m_s: Vector3::repeat(f64::NAN) }
     }
 }
 
-/// The bodies and the frames at one instant, as a force sees them.
+/// The bodies and the frames at one instant, as seen by a force.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
     pub(super) law: &'a OwnPlain,
@@ -55,7 +55,7 @@ impl Scene<'_> {
         self.frames.time
     }
 
-    /// Where a point is and how it moves; not a number for what the model has not.
+    /// Position and velocity of a point; NaN for points that the model lacks.
     pub fn motion(&self, place: &Place) -> PointMotion {
         match place {
             Place::Frame(frame, point_m) => {
@@ -73,7 +73,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Velocity of a point of a segment, or of a sphere, which may ride on a part that yields.
+    /// Velocity of a point of a segment, or of a sphere, which may move with a plate.
     fn velocity(&self, place: &Place, segment: usize, arm: V3<f64>) -> V3<f64> {
         match place {
             Place::Sphere(sphere) => self.law.spheres[*sphere].place(self.k, Use::Contact).2,
@@ -81,7 +81,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Pose and velocities of a frame, space axes; not a number for one that the model has not.
+    /// Pose and velocities of a frame, space axes; NaN for frames that the model lacks.
     pub fn frame(&self, frame: Frame) -> FrameMotion {
         match frame {
             Frame::Segment(n) if n < self.law.joints.len() => self.k.moving(n).motion(),
@@ -91,12 +91,12 @@ impl Scene<'_> {
         }
     }
 
-    /// Pose and velocities of a segment, space axes, its origin its joint; not a number for one that the model has not.
+    /// Pose and velocities of a segment, space axes, with its joint as origin; NaN for segments that the model lacks.
     pub fn segment(&self, segment: Segment) -> FrameMotion {
         self.frame(Frame::Segment(segment.index()))
     }
 
-    /// The segment of a point of the body, and the point seen from the segment's joint, space axes.
+    /// Segment of a point of the body, and the vector from the segment's joint to the point, space axes.
     pub(super) fn arm(&self, place: &Place) -> Option<(usize, V3<f64>)> {
         match place {
             Place::Segment(segment, from_lower_end) => {
@@ -113,12 +113,12 @@ impl Scene<'_> {
     }
 }
 
-/// Takes what a force does at one instant. All vectors are in space axes (X′ forward, Y′ left, Z′ up).
+/// Receives the loads of a force at one instant. All vectors are in space axes (X′ forward, Y′ left, Z′ up).
 #[derive(Debug)]
 pub struct Pushes<'s, 'l> {
     pub(super) scene: Scene<'s>,
     pub(super) load: &'l mut Load<f64>,
-    /// The first pushed segment, whose body's ledger contains everything.
+    /// First loaded segment, whose body's ledger contains the energy.
     pub(super) home: Option<usize>,
     /// Power that goes into the force, W.
     pub(super) taken_w: f64,
@@ -128,7 +128,7 @@ pub struct Pushes<'s, 'l> {
 }
 
 impl Pushes<'_, '_> {
-    /// A force on a point, N. On a frame it moves nothing but one that yields; its work is the vehicle's.
+    /// Force on a point, N. On a frame, it moves yielding frames only; its work is the vehicle's.
     pub fn force(&mut self, on: &Place, force_n: Vector3<f64>) {
         let motion = self.scene.motion(on);
         let power_w = force_n.dot(&motion.velocity_m_s);
@@ -158,7 +158,7 @@ impl Pushes<'_, '_> {
         }
     }
 
-    /// A moment on a segment, N·m.
+    /// Moment on a segment, N·m.
     pub fn moment(&mut self, on: Segment, moment_n_m: Vector3<f64>) {
         let n = on.index();
         if n >= self.scene.law.joints.len() {
@@ -171,7 +171,7 @@ impl Pushes<'_, '_> {
         self.belongs_to(n, power_w);
     }
 
-    /// A force on one point and the opposite on another, N.
+    /// Force on one point and its reaction on another, N.
     pub fn between(&mut self, one: &Place, other: &Place, force_on_one_n: Vector3<f64>) {
         let is_frame = |place: &Place| matches!(place, Place::Frame(..));
         // what is pushed first is the home of the books
@@ -189,14 +189,14 @@ impl Pushes<'_, '_> {
         self.stored_j += energy_j;
     }
 
-    /// The present value of one of its channels, by its position in [`Force::channels`](super::Force::channels).
+    /// Present value of one of its channels, by its index in [`Force::channels`](super::Force::channels).
     pub fn show(&mut self, channel: usize, value: f64) {
         if let Some(shown) = self.shown.get_mut(channel) {
             *shown = value;
         }
     }
 
-    /// Books the power that a segment gets: another body than the first one's gets it from that.
+    /// Books the power that a segment receives: a segment of another body receives it from the first body.
     fn belongs_to(&mut self, segment: usize, power_w: f64) {
         match self.home {
             None => self.home = Some(segment),

@@ -9,7 +9,7 @@ use crate::forces::sphere::MOST_RIDDEN;
 use crate::motion::layout::MOST_SLIDES;
 use placed_text::{Problems, number, with_key};
 
-/// The least part of a segment's mass that its plates must leave.
+/// Smallest fraction of a segment's mass that its plates must leave.
 const LEAST_LEFT: f64 = 0.8;
 
 const FACTOR: &str = "a number";
@@ -79,7 +79,7 @@ fn band(band: &Band, plates: usize, problems: &mut Problems) {
     }
 }
 
-/// What plates leave of a segment must have most of its mass, and be a body.
+/// Checks that the segment without its plates keeps most of its mass and a valid inertia.
 fn left(segment: Segment, plates: &[Plate], body: &Body, problems: &mut Problems) {
     let own = || plates.iter().filter(|plate| plate.segment == segment);
     let (whole, taken) = (body.segment(segment), own().map(|plate| plate.mass_kg).sum::<f64>());
@@ -112,14 +112,14 @@ fn left(segment: Segment, plates: &[Plate], body: &Body, problems: &mut Problems
     }
 }
 
-/// Whether something of a segment can ride so.
+/// Checks a point of a segment that moves with plates.
 pub(crate) fn ride(ride: &Ride, path: &str, segment: Segment, plates: &[Plate], problems: &mut Problems) {
     for (key, shares) in [("contact", &ride.contact), ("belt", &ride.belt), ("bag", &ride.bag)] {
         rides(shares, &format!("{path}.ride.{key}"), segment, plates, problems);
     }
 }
 
-/// The same under one use.
+/// The same for one use.
 pub(crate) fn rides(shares: &Shares, path: &str, segment: Segment, plates: &[Plate], problems: &mut Problems) {
     if shares.len() > MOST_RIDDEN {
         problems.error(path, format!("{} plates", shares.len()), format!("at most {MOST_RIDDEN}"));

@@ -3,20 +3,20 @@
 use crate::body::{Plate, Shares};
 use crate::forces::function::Function;
 
-/// A spring and a damper over the deflection of a plate, or over a sum of those of several.
+/// Spring and damper over the deflection of a plate, or over a weighted sum of deflections.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
-    /// Its name: that of its plate, or of a link between plates.
+    /// Name: that of its plate, or of a link between plates.
     pub name: String,
     /// Plates (indices) with the factors a of their deflections: x = Σ a s.
     pub of: Shares,
-    /// Force over x, with what of it comes back.
+    /// Force over x, with its returned fraction.
     pub spring: Function,
-    /// The same over −x where x is below 0; as `spring` if none.
+    /// The same over −x for x below 0; as `spring` if none.
     pub outward: Option<Function>,
     /// Damping.
     pub damper: Damper,
-    /// Maxwell branch beside it: stiffness, N/m, and time constant, s.
+    /// Parallel Maxwell branch: stiffness, N/m, and time constant, s.
     pub viscous: Option<[f64; 2]>,
 }
 
@@ -31,17 +31,17 @@ pub struct Damper {
     pub outward_n_s_m: f64,
 }
 
-/// What a setup says of plates.
+/// Setup data of plates.
 #[derive(Clone, Copy, Debug)]
 pub struct PlateData<'a> {
     /// The plates of the bodies.
     pub plates: &'a [Plate],
-    /// What resists them.
+    /// Their springs and dampers.
     pub bands: &'a [Band],
 }
 
 impl Band {
-    /// The same among several bodies, of one with this name whose plates begin at `first`.
+    /// The same for one of several bodies, with this name, whose plates begin at index `first`.
     pub(crate) fn of_member(&self, name: String, first: usize) -> Self {
         let of = self.of.iter().map(|(plate, factor)| (first + plate, *factor)).collect();
         Band { name, of, ..self.clone() }

@@ -16,7 +16,7 @@ use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_SLIDES;
 use crate::motion::scalar::Scalar;
 
-/// Part of a chest's depth beyond which no test has pressed one.
+/// Fraction of a chest's depth beyond which there are no tests.
 pub(crate) const DEEP: f64 = 0.45;
 
 /// Constants of the plates of all bodies.
@@ -24,7 +24,7 @@ pub(crate) const DEEP: f64 = 0.45;
 pub struct PlateLaws<S> {
     /// By plate: its segment.
     pub(super) segments: Vec<usize>,
-    /// By plate: the deflection beyond which nothing is known, m.
+    /// By plate: largest deflection covered by tests, m.
     pub(super) deep: Vec<S>,
     pub(super) bands: Vec<BandLaw<S>>,
 }
@@ -38,16 +38,16 @@ pub(super) struct BandLaw<S> {
     outward: Option<FunctionLaw<S>>,
     /// c₁, c₂, c₀.
     damper: [S; 3],
-    /// κ, τ and the place of e among the numbers that force elements own.
+    /// κ, τ and the index of e among the state variables that force elements own.
     viscous: Option<([S; 2], usize)>,
 }
 
-/// What a band does at one instant.
+/// State of a band at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Now<S> {
     /// f, N.
     pub force: S,
-    /// What of its work comes back, J.
+    /// Recoverable energy, J.
     pub stored: S,
 }
 
@@ -60,7 +60,7 @@ impl PlateLaws<f64> {
         }
     }
 
-    /// Appends s and ṡ of every plate, then the strains of Maxwell branches, as they begin: nothing has given way.
+    /// Appends the initial s and ṡ of every plate, then the initial strains of Maxwell branches: all zero.
     pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
         numbers.extend(self.segments.iter().flat_map(|_| [0.0; 2]));
         for band in &mut self.bands {
@@ -129,7 +129,7 @@ impl<S: Scalar> BandLaw<S> {
         sum
     }
 
-    /// Force and energy at x and ẋ, among numbers that force elements own, of which it writes the rate of its own.
+    /// Force and energy at x and ẋ; writes the rate of the band's own state variable.
     #[inline(always)]
     pub(super) fn now(&self, [x, speed]: [S; 2], past: &BandPast<S>, own: &[S], rates: &mut [S]) -> Now<S> {
         let o = S::zero();
@@ -153,7 +153,7 @@ impl<S: Scalar> BandLaw<S> {
     }
 }
 
-/// Force of a spring and what comes back of its work.
+/// Force of a spring and its recoverable energy.
 #[inline(always)]
 fn elastic<S: Scalar>(spring: &FunctionLaw<S>, way: S, greatest: S) -> [S; 2] {
     let top = greatest.max(way);

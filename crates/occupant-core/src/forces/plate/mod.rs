@@ -27,10 +27,10 @@ pub use past::BandPast;
 use placed_text::Problems;
 pub use results::PlateAction;
 
-/// Place of the work that plates take up, ∫ΣSṡ.
+/// Index of the work that plates absorb, ∫ΣSṡ.
 const WORK: usize = 7;
 
-/// Speed of a plate at which its quadratic damper is told among the rates, m/s: that of a hub test.
+/// Speed of a plate at which its quadratic damper enters the rates, m/s: that of a hub test.
 const TOLD_M_S: f64 = 7.0;
 
 const OTHER_PLATES: Unlike = Unlike("the plates are others, or their bands have other numbers of points");
@@ -165,7 +165,7 @@ impl Element for Plates {
     }
 }
 
-/// Resistances of all plates with their powers, and what each stores; that of a link stands with its first plate.
+/// Resistances of all plates with their powers, and the stored energies; that of a link counts with its first plate.
 #[inline(always)]
 fn resist<S: Scalar>(
     law: &PlateLaws<S>,

@@ -5,12 +5,12 @@ use crate::motion::scalar::Scalar;
 /// Memory of a band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandPast<S> {
-    /// x_m: the largest x, and the largest −x, of the present sign alone, m.
+    /// x_m: the largest x and the largest −x since the last change of sign, m.
     pub(super) greatest: [S; 2],
 }
 
 impl<S> BandPast<S> {
-    /// How many numbers it has.
+    /// Count of its numbers.
     pub(super) const SIZE: usize = 2;
 }
 
@@ -19,7 +19,7 @@ impl<S: Scalar> BandPast<S> {
         BandPast { greatest: [S::zero(); 2] }
     }
 
-    /// Takes x at an accepted step over.
+    /// Updates it with x at an accepted step.
     #[inline(always)]
     pub(super) fn commit(&mut self, x: S) {
         let (o, is_out, [inward, outward]) = (S::zero(), x.lt(S::zero()), self.greatest);

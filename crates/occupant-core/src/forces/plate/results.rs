@@ -10,7 +10,7 @@ use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
 use crate::quantity::{FieldWords, Quantity};
 
-/// What one plate does at one instant.
+/// State of one plate at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct PlateAction<S> {
     /// s, m, and ṡ, m/s, inward positive.
@@ -18,9 +18,9 @@ pub struct PlateAction<S> {
     pub(crate) speed: S,
     /// S, N.
     pub(crate) force: S,
-    /// What of its work comes back, J.
+    /// Recoverable energy, J.
     pub(super) stored: S,
-    /// 1 where it is deeper than anything that is known.
+    /// 1 where the deflection exceeds the range of all tests.
     pub(super) deep: S,
 }
 
@@ -59,7 +59,7 @@ impl Reported for Plates {
         timed(scaled(1e3, Column::number("deflection_max_m", "deflection, mm", 1)).measure("deflection_max", Metre), "deflection_max_time_s", "deflection_max_time"),
         timed(Column::number("speed_max_m_s", "speed, m/s", 2).measure("speed_max", MetrePerSecond), "speed_max_time_s", "speed_max_time"),
         timed(scaled(1e-3, Column::number("force_max_n", "force, kN", 2)).measure("force_max", Newton), "force_max_time_s", "force_max_time"),
-        timed(Column::number("deep", "too deep", 0), "deep_time_s", "deep_time"),
+        timed(Column::number("deep", "bottomed out", 0), "deep_time_s", "deep_time"),
     ];
 
     #[inline(always)]

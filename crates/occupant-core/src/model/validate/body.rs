@@ -4,10 +4,10 @@ use crate::body::{Body, JointKind, Place, SegmentProperties};
 use crate::motion::layout::{MOST_HINGES, MOST_SEGMENTS};
 use placed_text::{Problems, number};
 
-/// A sphere may lie this far beside even a short segment, m, and mass be spread so far.
+/// Largest distance of a sphere from even a short segment, and of mass from its centre, m.
 const WIDEST_M: f64 = 0.3;
 
-/// Whether there are as many segments and places of joints as the tree has.
+/// Whether the numbers of segments and joint positions are those of the tree.
 pub(super) fn check_count(body: &Body, problems: &mut Problems) -> bool {
     let given = body.tree.joint_rows().iter().any(|row| row.place == Place::Given);
     let (segments, joints) = (body.tree.segments().len(), if given { body.tree.joints().len() } else { 0 });
@@ -28,7 +28,7 @@ pub(super) fn check_count(body: &Body, problems: &mut Problems) -> bool {
     is_whole
 }
 
-/// Axes of hinges that a joint of a kind has.
+/// Number of hinge axes of a joint of this kind.
 pub(super) fn axes_of(kind: JointKind) -> usize {
     match kind {
         JointKind::Hinge => 1,

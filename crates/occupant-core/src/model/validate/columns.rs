@@ -44,7 +44,7 @@ pub(super) fn check(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// Whether it may carry a column or a bag.
+/// Whether a frame may carry a column or a bag.
 fn is_carrier(frame: Frame) -> bool {
     !matches!(frame, Frame::Space | Frame::Segment(_))
 }
@@ -53,7 +53,7 @@ fn hangs_on(frame: &OtherFrame, column: &Column) -> bool {
     frame.parent.is_some_and(|(parent, _)| parent == Frame::Other(column.frame))
 }
 
-/// Whether what carries a column moves along straight lines of a table.
+/// Whether the carrier of a column moves along straight lines of a table.
 fn is_without_acceleration(setup: &Setup, column: &Column) -> bool {
     let is_linear =
         |path: &VehiclePath| matches!(path, VehiclePath::Table(t) if t.interpolation() == Interpolation::Linear);

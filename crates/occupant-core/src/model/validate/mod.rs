@@ -17,7 +17,7 @@ pub(super) use path::check_path;
 use placed_text::{Problems, number};
 pub(super) use time::check_time;
 
-/// Reports every problem of the numbers of `setup`.
+/// Reports every problem of the values of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     if !body::check_count(&setup.body, problems) {
         return;
@@ -49,7 +49,7 @@ fn check_gravity(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// Problems of the force elements of several bodies together, each of which is right alone.
+/// Problems of the force elements of several bodies together, each of which is valid alone.
 pub(super) fn check_whole(setup: &Setup, problems: &mut Problems) {
     let mut found = Problems::new();
     setup.forces(&[]).check(&setup.body, &mut found);
@@ -58,7 +58,7 @@ pub(super) fn check_whole(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// How much of everything several bodies have together; each is looked at by itself.
+/// Total counts of several bodies; each body is checked by itself.
 fn check_together(setup: &Setup, problems: &mut Problems) {
     check_gravity(setup, problems);
     check_time(&setup.time, &setup.integrator, problems);
@@ -99,7 +99,7 @@ fn check_together(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// The report's coordinates are those of its own body.
+/// Checks that the report's coordinates belong to the report's body.
 fn check_coordinates(setup: &Setup, problems: &mut Problems) {
     if *setup.body.tree == TTI12 || !setup.members.is_empty() {
         return;
@@ -113,7 +113,7 @@ fn check_coordinates(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// Angles of more than half a turn, which a slip of the pen makes.
+/// Warns of angles beyond half a turn, a likely typing error.
 fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
     let (path, angles_rad) = match posture {
         InitialPosture::Seated(seating) => ("posture", &seating.angles_rad),

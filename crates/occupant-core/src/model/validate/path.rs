@@ -5,24 +5,24 @@ use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
 use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
 use placed_text::{Problem, Problems, with_key};
 
-/// What is usual of a vehicle, and what numbers can carry.
+/// Usual and possible range of a quantity of a vehicle's motion.
 struct Pace {
     of: fn(&FrameMotion) -> f64,
     what: &'static str,
-    /// In SI units, as messages show it and how many SI units that is.
+    /// SI unit: its text and its value in SI.
     unit: (&'static str, f64),
     usual: f64,
-    /// Beyond this, SI, the places of the body lose the digits that forces are made of.
+    /// Bound, SI, beyond which positions lose the digits that forces need.
     most: f64,
     slip: &'static str,
 }
 
-/// A place that leaps by less than this is one of rounded numbers, m.
+/// Largest jump of position that counts as rounding, m.
 const LEAP_M: f64 = 0.01;
 
 const G: f64 = STANDARD_GRAVITY_M_S2;
 
-/// What it is, its unit, what is usual and what is possible, and the slip.
+/// Quantity, unit, usual and possible bounds, and the likely mistake.
 #[rustfmt::skip]
 const PACES: [Pace; 4] = [
     pace(|m| m.origin_m.norm(), "distance from the origin", ("m", 1.0), f64::INFINITY, 1e8,
@@ -45,10 +45,10 @@ const fn pace(
     Pace { of, what, unit, usual, most, slip }
 }
 
-/// So many instants of a run are looked at, beside those at which its path is given.
+/// Number of instants checked besides those at which the path is given.
 const INSTANTS: u32 = 256;
 
-/// Reports a path that does not reach as far as the run, and one that no vehicle takes.
+/// Reports a path that ends before the run, and one that is impossible for a vehicle.
 pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
     let (time, path) = (&setup.time, &setup.path);
     if let Err(problem) = path.check_span(time.start_s, time.end_s) {
@@ -81,7 +81,7 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// Reports a program's own path that leaps: a place that its velocity does not lead to.
+/// Reports a program's own path with jumps: a position inconsistent with its velocity.
 fn check_leaps(setup: &Setup, motions: &[(f64, FrameMotion)], problems: &mut Problems) {
     if !matches!(setup.path, VehiclePath::Own(_)) {
         return;
@@ -105,7 +105,7 @@ fn check_leaps(setup: &Setup, motions: &[(f64, FrameMotion)], problems: &mut Pro
     }
 }
 
-/// Reports other frames whose path does not reach as far as the run, or has numbers that are not finite.
+/// Reports other frames whose path ends before the run or is not finite.
 fn check_others(setup: &Setup, problems: &mut Problems) {
     let time = &setup.time;
     for frame in &setup.frames {
@@ -123,12 +123,12 @@ fn check_others(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// One of the instants spread over the run, s.
+/// Instant with this index, spread over the run, s.
 fn instant(time: &TimeSpan, i: u32) -> f64 {
     time.start_s + (time.end_s - time.start_s) * f64::from(i) / f64::from(INSTANTS)
 }
 
-/// Instants spread over the run, those in it at which the path is given, and the middles between all of them.
+/// Instants spread over the run, those at which the path is given, and the midpoints between all of them.
 fn instants(setup: &Setup) -> Vec<f64> {
     let time = &setup.time;
     let spread = (0..=INSTANTS).map(|i| instant(time, i));
@@ -139,10 +139,10 @@ fn instants(setup: &Setup) -> Vec<f64> {
     middles.chain(all.iter().copied()).collect()
 }
 
-/// A mount's velocity may change by so much, m/s and rad/s, from one instant to the next.
+/// Permitted change of a mount's velocity from one instant to the next, m/s and rad/s.
 const JUMP: f64 = 1e-3;
 
-/// Reports a jump of velocity in the path of a mount, whose force would have no bound.
+/// Reports a jump of velocity in the path of a mount, whose force would be infinite.
 fn check_jumps(setup: &Setup, problems: &mut Problems) {
     let time = &setup.time;
     if setup.mounting().is_none_or(|mounting| mounting.frame == Frame::Space) {

@@ -7,10 +7,10 @@ use crate::model::setup::{Member, Setup};
 use crate::motion::frame::{MOST_FRAMES, VEHICLE};
 use placed_text::{Problems, with_key};
 
-/// So many frames there may be besides space and the first vehicle.
+/// Largest number of frames besides space and the first vehicle.
 const MOST_OTHERS: usize = MOST_FRAMES - VEHICLE - 1;
 
-/// Reports what points nowhere. What follows relies on it: nothing else may look at a setup of which this finds errors.
+/// Reports invalid indices. All other checks rely on it: none may read a setup with such errors.
 pub(super) fn check(setup: &Setup, problems: &mut Problems) {
     check_frames(setup, problems);
     check_carried(setup, problems);
@@ -21,7 +21,7 @@ pub(super) fn check(setup: &Setup, problems: &mut Problems) {
     problems.check_unique("materials", "material", setup.materials.iter().map(|m| m.name.as_str()));
 }
 
-/// Why a frame is none, if so; `segments`: whether it may be a segment.
+/// Reason why a frame is invalid, if it is; `segments`: whether it may be a segment.
 fn lost(setup: &Setup, frame: Frame, segments: bool) -> Option<String> {
     let (frames, count) = (setup.frames.len(), setup.body.segments.len());
     match frame {
@@ -64,7 +64,7 @@ fn check_frames(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// What moves with a frame.
+/// Checks what moves with a frame.
 fn check_carried(setup: &Setup, problems: &mut Problems) {
     let mut each = |path: String, frame: Frame, segments: bool| {
         if let Some(found) = lost(setup, frame, segments) {
@@ -142,7 +142,7 @@ fn check_markers(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// Members that are not those of the body, as when one was added to a setup for one body.
+/// Checks that members are those of the body, as when one was added to a setup for one body.
 fn check_members(setup: &Setup, problems: &mut Problems) {
     let (members, is_together) = (&setup.members, setup.posture == InitialPosture::Together);
     if members.is_empty() {

@@ -3,17 +3,17 @@
 use crate::model::setup::{DEFAULT_OUTPUT_S, Integrator, TimeSpan};
 use placed_text::{Problems, number};
 
-/// More steps than this are a slip of the pen.
+/// Largest number of steps; more is a mistake.
 const MOST_STEPS: f64 = 1e9;
-/// More outputs or readings than this are, too.
+/// Largest number of outputs or readings.
 const MOST_OUTPUTS: f64 = 1e7;
 
-/// The smallest relative tolerance: of speeds, of numbers of the order of 1.
+/// Smallest relative tolerance, of quantities of the order of 1.
 const FINEST: f64 = 1e-13;
-/// The smallest step that can be told from none at times of the order of 1 s, s.
+/// Smallest step that changes times of the order of 1 s, s.
 const SHORTEST_S: f64 = 1e-15;
 
-/// An interval as long as this is no slip of the pen, however short the run, s.
+/// Interval that is permitted for runs of any length, s.
 const LONGEST_ANYWAY_S: f64 = 10.0 * DEFAULT_OUTPUT_S;
 
 pub(crate) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mut Problems) {
@@ -48,7 +48,7 @@ pub(crate) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
     }
 }
 
-/// Reports a number that is not positive, or so small that a run of numbers of 16 digits would not end.
+/// Reports a number that is not positive, or so small that a run with 16 digits would not end.
 fn at_least(problems: &mut Problems, (path, value, unit): (&str, f64, &str), least: f64) {
     if problems.check_positive(path, value, unit) && !(value >= least && value.is_finite()) {
         let found = format!("{} {unit}", number(value));
@@ -60,7 +60,7 @@ fn at_least(problems: &mut Problems, (path, value, unit): (&str, f64, &str), lea
     }
 }
 
-/// How often instruments are read for measures, where somebody asks for it; a scenario has no key of its own for that.
+/// Checks the interval of instrument readings, if given; scenarios have no key for it.
 pub(super) fn check_readings(readings_s: Option<f64>, time: &TimeSpan, problems: &mut Problems) {
     let span_s = time.end_s - time.start_s;
     if let Some(interval_s) = readings_s {
@@ -80,7 +80,7 @@ fn within_run(problems: &mut Problems, interval_s: f64, span_s: f64) {
     }
 }
 
-/// Reports an interval that is not positive, or so short that the span has more than `most` of what it makes.
+/// Reports an interval that is not positive, or so short that the span has more than `most` of them.
 fn at_most(problems: &mut Problems, (path, interval_s): (&str, f64), span_s: f64, (most, what): (f64, &str)) {
     if problems.check_positive(path, interval_s, "s") && span_s / interval_s > most {
         problems.error(

@@ -18,7 +18,8 @@ impl Point {
     }
 }
 
-/// A segment without its points: mass, centre of gravity, inertia about it, angular velocity, force and moment at the joint.
+/// A segment without its point masses: mass, centre of gravity, inertia about it, angular velocity, force and moment at
+/// the joint.
 struct Alone {
     mass: f64,
     cg: Vector3<f64>,
@@ -28,12 +29,13 @@ struct Alone {
     moment: Vector3<f64>,
 }
 
-/// Of a mass at a place, about the origin.
+/// Articulated inertia of a point mass, about the origin.
 fn about(mass: f64, at: Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * at.norm_squared() - at * at.transpose()) * mass
 }
 
-/// Accelerations of joint and points, and angular, as the sweep finds them; the points are a part of the segment.
+/// Accelerations of joint and point masses, and angular acceleration, by the sweep; the point masses are part of the
+/// segment.
 fn swept(alone: &Alone, points: &[Point]) -> Vec<f64> {
     let mass_kg = alone.mass + points.iter().map(|p| p.0).sum::<f64>();
     let sigma = points.iter().fold(alone.cg * alone.mass, |sum, p| sum + p.2 * p.0);
@@ -91,7 +93,7 @@ fn worst(found: &[f64], expected: &[f64]) -> f64 {
     found.iter().zip(expected).map(|(a, b)| (a - b).abs() / size).fold(0.0, f64::max)
 }
 
-/// A trunk with two plates; its expected accelerations were computed by an independent program.
+/// A trunk with two plates; expected accelerations are from an independent program.
 #[test]
 fn two_plates_of_a_trunk_accelerate_as_golden_numbers_say() {
     let v = Vector3::new;

@@ -17,14 +17,14 @@ pub(crate) struct Limb<S> {
     alpha_free: V3<S>,
     /// Elements of B J⁻¹.
     gain: Gain<S>,
-    /// ŷ·n of the lower segment at rest of the upper one.
+    /// ŷ·n of the lower segment for the upper one at rest.
     hinge_bias: S,
     sigma: S,
     inverse_iy: S,
     sin_cos: (S, S),
 }
 
-/// The four elements of B J⁻¹ that do not vanish.
+/// The four non-zero elements of B J⁻¹.
 #[derive(Clone, Copy, Debug)]
 struct Gain<S> {
     xy: S,
@@ -42,7 +42,7 @@ impl<S: Scalar> Gain<S> {
 }
 
 impl<S: Scalar> Limb<S> {
-    /// Not yet reduced.
+    /// Zero, before reduction.
     #[inline(always)]
     pub(crate) fn zero() -> Self {
         let o = S::zero();
@@ -69,7 +69,7 @@ impl<S: Scalar> Limb<S> {
     }
 }
 
-/// Reduces limb `i` of [`LIMBS`] to what it asks of its shoulder or hip, the first result.
+/// Reduces limb `i` of [`LIMBS`] to the demand at its shoulder or hip, the first result.
 #[inline(always)]
 pub(crate) fn reduce<S: Scalar>(
     links: &Links<S>,
@@ -172,7 +172,7 @@ impl<S: Scalar> PlaneMass<S> {
     }
 }
 
-/// A leaf after the inward sweep: a ball joint with nothing beyond, so that J and M̃ are diagonal in its own axes.
+/// A leaf after the inward sweep: a ball joint without children, so that J and M̃ are diagonal in its own axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leaf<S> {
     alpha_free: V3<S>,
@@ -180,7 +180,7 @@ pub(crate) struct Leaf<S> {
 }
 
 impl<S: Scalar> Leaf<S> {
-    /// Not yet reduced.
+    /// Zero, before reduction.
     #[inline(always)]
     pub(crate) fn zero() -> Self {
         Leaf { alpha_free: V3::zero(), gain: Gain::zero() }
@@ -195,7 +195,7 @@ impl<S: Scalar> Leaf<S> {
     }
 }
 
-/// Reduces the leaf `n` to what it asks of its joint, the first result.
+/// Reduces the leaf `n` to the demand at its joint, the first result.
 #[inline(always)]
 pub(crate) fn reduce_leaf<S: Scalar>(
     links: &Links<S>,

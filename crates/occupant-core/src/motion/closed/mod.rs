@@ -31,20 +31,20 @@ use crate::motion::vector::{M3, Sym3, V3, v3};
 
 /// Number of segments.
 const SEGMENTS: usize = 12;
-/// Segments whose orientation is free.
+/// Segments with free orientation.
 pub(crate) const FREE: [usize; 8] = [0, 1, 2, 3, 4, 5, 8, 9];
 /// Upper and lower segment of each limb: the lower one turns about Y of the upper one.
 pub(crate) const LIMBS: [(usize, usize); 4] = [(4, 6), (5, 7), (8, 10), (9, 11)];
-/// Segments on a ball joint that carry nothing.
+/// Segments on a ball joint without children.
 const LEAVES: [usize; 1] = [2];
-/// Segments on a ball joint that carry others on ball joints, and those: none stands before the one that carries it.
+/// Segments on a ball joint that carry others on ball joints, and those others; no segment precedes its carrier.
 const TRUNKS: [(usize, &[usize]); 3] = [(0, &[3]), (1, &[2, 4, 5]), (3, &[8, 9])];
-/// Segments that others carry, and those, each behind what carries it: those of trunks, then those of limbs.
+/// Carriers and the segments that they carry, each after its carrier: of trunks, then of limbs.
 const HUNG: [(usize, usize); 10] = [(3, 0), (2, 1), (4, 1), (5, 1), (8, 3), (9, 3), (6, 4), (7, 5), (10, 8), (11, 9)];
 /// Segments whose joint is T1.
 const ROOTS: [usize; 2] = [0, 1];
 
-/// How many numbers of each kind its state has.
+/// Counts of the numbers of its state.
 #[cfg(test)]
 const SHAPE: Shape = Shape::new(FREE.len(), LIMBS.len());
 
@@ -56,13 +56,13 @@ pub(crate) fn holds(layout: &Layout) -> bool {
     *layout == Layout::of(&TTI12)
 }
 
-/// Constants of the segments of such a body.
+/// Constants of the segments of this body.
 #[inline(always)]
 fn links<'a, S>(body: &'a Skeleton<S>, trunk: &Tree) -> &'a Links<S> {
     body.links[trunk.first..][..SEGMENTS].try_into().expect("is_closed says so")
 }
 
-/// Kinematics of such a body of `state`.
+/// Kinematics of this body in `state`.
 #[inline(always)]
 pub(crate) fn place<S: Scalar>(all: &mut Kinematics<S>, bodies: &Skeleton<S>, state: &State<S>, body: usize) {
     let trunk = &bodies.layout.trunks()[body];
@@ -106,13 +106,13 @@ pub(crate) fn place<S: Scalar>(all: &mut Kinematics<S>, bodies: &Skeleton<S>, st
     }
 }
 
-/// The first of many, as many as are asked for.
+/// The first N of a slice.
 #[inline(always)]
 fn of<T, const N: usize>(all: &mut [T]) -> &mut [T; N] {
     (&mut all[..N]).try_into().expect("is_closed says so")
 }
 
-/// The motion of such a body among others.
+/// Motion of this body among others.
 pub(crate) struct Seen<'a, S> {
     axes: &'a [M3<S>; SEGMENTS],
     omega: &'a [V3<S>; SEGMENTS],
@@ -133,13 +133,13 @@ impl<'a, S> Seen<'a, S> {
     }
 }
 
-/// The first of many, as many as are asked for.
+/// The first N of a slice.
 #[inline(always)]
 fn seen<T, const N: usize>(all: &[T]) -> &[T; N] {
     all[..N].try_into().expect("is_closed says so")
 }
 
-/// What a subtree asks of the joint that carries it: f = `mass`·a + `bias`, space axes.
+/// Demand of a subtree at the joint that carries it: f = `mass`·a + `bias`, space axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Demand<S> {
     /// M̃, kg.
@@ -149,13 +149,13 @@ pub(crate) struct Demand<S> {
 }
 
 impl<S: Scalar> Demand<S> {
-    /// Nothing.
+    /// Zero demand.
     #[inline(always)]
     fn zero() -> Self {
         Demand { mass: Sym3::scaled_identity(S::zero()), bias: V3::zero() }
     }
 
-    /// The force at the joint for an acceleration `a` of the joint, gravity excluded.
+    /// Force at the joint for an acceleration `a` of the joint, without gravity.
     #[inline(always)]
     pub(crate) fn force(&self, a: V3<S>) -> V3<S> {
         self.mass.mul(a) + self.bias
@@ -172,7 +172,7 @@ struct Trunk<S> {
 }
 
 impl<S: Scalar> Trunk<S> {
-    /// Not yet reduced.
+    /// Zero, before reduction.
     #[inline(always)]
     fn zero() -> Self {
         let o = V3::zero();
@@ -186,8 +186,8 @@ impl<S: Scalar> Trunk<S> {
     }
 }
 
-/// Both sweeps through the tree, with what the one outward takes over from the one inward. Every number that is read was
-/// written before in the same call, so that one may be used again without being cleared.
+/// Both sweeps through the tree, with the results of the inward sweep that the outward one uses. Every number that is
+/// read was written before in the same call, so the space can be reused without clearing.
 #[derive(Clone, Debug)]
 pub(crate) struct Sweep<S> {
     demand: [Demand<S>; SEGMENTS],
@@ -197,7 +197,7 @@ pub(crate) struct Sweep<S> {
 }
 
 impl<S: Scalar> Sweep<S> {
-    /// Nothing solved yet.
+    /// Empty sweep.
     #[inline(always)]
     pub(crate) fn blank() -> Self {
         Sweep {
@@ -269,7 +269,7 @@ impl<S: Scalar> Sweep<S> {
     }
 }
 
-/// Accelerations of such a body among others.
+/// Accelerations of this body among others.
 struct Outward<'a, S> {
     joint: &'a mut [V3<S>; SEGMENTS],
     alpha: &'a mut [V3<S>; SEGMENTS],
@@ -285,7 +285,8 @@ impl<S: Scalar> Outward<'_, S> {
     }
 }
 
-/// Reduces a trunk segment to what it asks of its joint, the first result; `demands` of the segments it carries are known.
+/// Reduces a trunk segment to the demand at its joint, the first result; `demands` of the segments that it carries are
+/// known.
 #[inline(always)]
 fn reduce<S: Scalar>(
     links: &Links<S>,

@@ -9,29 +9,29 @@ use crate::motion::scalar::Scalar;
 use crate::motion::state::{Shape, State};
 use crate::motion::vector::V3;
 
-/// Evaluations of a step whose first stage is known.
+/// Evaluations of a step with a known first stage.
 pub(crate) const EVALUATIONS: u64 = 3;
 
-/// The least power of the step in the error estimate.
+/// Lowest power of the step in the error estimate.
 pub(crate) const ERROR_ORDER: f64 = 3.0;
 
-/// Where in a step a rate is asked for.
+/// Stage at which the derivative is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stage {
-    /// Inside, at this fraction of the step.
+    /// Within the step, at this fraction.
     Within(f64),
-    /// At its end, for the state that the step leads to.
+    /// At its end, for the new state.
     End,
 }
 
 /// Tolerances of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tolerance<S = f64> {
-    /// On speeds, relative to their size.
+    /// Of velocities, relative to their size.
     pub relative: S,
-    /// On positions, m; angles count at a radius of 1 m.
+    /// Of positions, m; angles count at a radius of 1 m.
     pub absolute_m: S,
-    /// On speeds, m/s; angular speeds count at a radius of 1 m.
+    /// Of velocities, m/s; angular velocities count at a radius of 1 m.
     pub absolute_m_s: S,
 }
 
@@ -40,20 +40,20 @@ pub(crate) struct Tolerance<S = f64> {
 pub(crate) struct Errors<S> {
     /// Of the whole step.
     pub whole: S,
-    /// From what is known before the end, where that may jump: from the midpoint rule. Worked out where the whole may not
-    /// be accepted.
+    /// Error by the midpoint rule, from values before the end, where the rate may jump. Computed if the whole step may
+    /// be rejected.
     pub within: S,
 }
 
 impl Errors<f64> {
-    /// The one that counts, up to 1 accepted; `jumps`: something has switched by the end.
+    /// The error for step control, accepted up to 1; `jumps`: an element has switched by the end.
     pub(crate) fn counting(self, jumps: bool) -> f64 {
         let Errors { whole, within } = self;
         if jumps && whole.is_finite() && whole > 1.0 { whole.min(within) } else { whole }
     }
 }
 
-/// What a trial step writes on its way, used again by the next: a state of any tree is large to copy.
+/// Results of a trial step, reused by the next: a state of any tree is large to copy.
 #[derive(Clone, Debug)]
 pub(crate) struct Room<S> {
     at: State<S>,
@@ -61,18 +61,18 @@ pub(crate) struct Room<S> {
     /// The state at the end of the trial.
     // boxed, as it changes hands
     pub end: Box<State<S>>,
-    /// The rate there: the first stage of the next step.
+    /// Rate there: the first stage of the next step.
     pub rate: Box<State<S>>,
 }
 
 impl<S: Scalar> Room<S> {
-    /// For states of this shape.
+    /// Space for states of this shape.
     pub(crate) fn new(shape: Shape) -> Self {
         let zero = State::zero(shape);
         Room { at: zero, k: [zero; 2], end: Box::new(zero), rate: Box::new(zero) }
     }
 
-    /// Tries a step `h` (s) from `state`, whose rate is `k1`; `rate` is called three times, last with [`Stage::End`].
+    /// Tries a step `h` (s) from `state` with the rate `k1`; `rate` is called three times, last with [`Stage::End`].
     #[inline(always)]
     pub(crate) fn attempt(
         &mut self,
@@ -105,7 +105,7 @@ impl<S: Scalar> Room<S> {
     }
 }
 
-/// The state after a step `h` (s) and the rates of the three later stages, the last of them at its end.
+/// State after a step `h` (s) and the rates of the three later stages, the last at its end.
 #[inline(always)]
 pub fn stages<S: Scalar>(
     state: &State<S>,
@@ -124,7 +124,8 @@ pub fn stages<S: Scalar>(
     (end, [k2, k3, k4])
 }
 
-/// The state at fraction `s` of a step `h` (s), from states and rates at its ends: cubic in time, third order like the step.
+/// State at the fraction `s` of a step `h` (s), from states and rates at its ends: cubic in time, of third order like
+/// the step.
 pub fn within<S: Scalar>(from: [&State<S>; 2], to: [&State<S>; 2], h: S, s: S) -> State<S> {
     let ([start, k1], [end, k4]) = (from, to);
     let r = S::one() - s;
@@ -171,7 +172,7 @@ fn along<S: Scalar>(x: S) -> V3<S> {
 }
 
 impl<S: Scalar> Tolerance<S> {
-    /// On the greater of two speeds.
+    /// Tolerance for the greater of two velocities.
     #[inline(always)]
     fn of_speed(&self, a: V3<S>, b: V3<S>) -> S {
         let size = a.norm_squared().max(b.norm_squared()).sqrt();
@@ -200,7 +201,7 @@ mod tests {
     use crate::motion::state::Quat;
     use crate::motion::vector::v3;
 
-    /// T1 swings about the origin with 1 rad/s; all else is at rest.
+    /// T1 turns about the origin with 1 rad/s; everything else is at rest.
     fn swing(state: &State<f64>) -> State<f64> {
         let mut rate = State::zero(state.shape());
         rate.set_t1(state.velocity());
@@ -217,7 +218,7 @@ mod tests {
         state
     }
 
-    /// Errors of one step, in its middle and at its end, m, and its estimate in units of 1 m.
+    /// Errors of one step at its middle and its end, m, and their estimate in units of 1 m.
     fn errors(h: f64) -> [f64; 3] {
         let tolerance = Tolerance { relative: 0.0, absolute_m: 1.0, absolute_m_s: 1.0 };
         let (start, k1) = (start(), swing(&start()));

@@ -5,10 +5,10 @@
 use crate::motion::scalar::Scalar;
 use crate::motion::state::{Shape, State};
 
-/// Where in a step a rate is asked for.
+/// Stage at which the derivative is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// At its start: the state is that of an accepted step.
+    /// At its start, with an accepted state.
     Start,
     /// At its middle.
     Middle,
@@ -16,7 +16,7 @@ pub enum Stage {
     End,
 }
 
-/// What a step writes on its way, used again by the next: a state of any tree is large to copy.
+/// Intermediate results of a step, reused by the next: a state of any tree is large to copy.
 #[derive(Clone, Debug)]
 pub struct Stages<S> {
     at: State<S>,
@@ -25,14 +25,14 @@ pub struct Stages<S> {
 }
 
 impl<S: Scalar> Stages<S> {
-    /// For states of this shape.
+    /// Space for states of this shape.
     #[inline(always)]
     pub fn new(shape: Shape) -> Self {
         let zero = State::zero(shape);
         Stages { at: zero, k: zero, sum: zero }
     }
 
-    /// The state after a step `h` (s); `rate` is called four times, first with [`Stage::Start`], and writes what it finds to
+    /// State after a step `h` (s); `rate` is called four times, first with [`Stage::Start`], and writes its result to
     /// its last argument.
     #[inline(always)]
     pub fn step(&mut self, from: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>, &mut State<S>)) -> &State<S> {
@@ -40,13 +40,13 @@ impl<S: Scalar> Stages<S> {
         self.go(from, h, rate)
     }
 
-    /// The first call of `rate` of a step, on which its length may depend.
+    /// First call of `rate` in a step, on which the step's length may depend.
     #[inline(always)]
     pub(crate) fn begin(&mut self, from: &State<S>, rate: impl FnOnce(Stage, &State<S>, &mut State<S>)) {
         rate(Stage::Start, from, &mut self.sum); // (115), (116)
     }
 
-    /// The rest of a step `h` (s) that has begun there.
+    /// Rest of a step `h` (s).
     #[inline(always)]
     pub(crate) fn go(
         &mut self,
@@ -72,7 +72,7 @@ impl<S: Scalar> Stages<S> {
     }
 }
 
-/// [`Stages::step`] by itself.
+/// A single [`Stages::step`].
 #[inline(always)]
 pub fn step<S: Scalar>(state: &State<S>, h: S, rate: impl FnMut(Stage, &State<S>, &mut State<S>)) -> State<S> {
     *Stages::new(state.shape()).step(state, h, rate)

@@ -15,13 +15,13 @@ pub(crate) use processor::{Avx2, Avx512};
 #[cfg(test)]
 pub(crate) use tests::plain::Plain;
 
-/// True if the processor can compute with [`Avx2`].
+/// Whether the processor supports [`Avx2`].
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn has_avx2() -> bool {
     is_x86_feature_detected!("avx2")
 }
 
-/// True if the processor can compute with [`Avx512`].
+/// Whether the processor supports [`Avx512`].
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn has_avx512() -> bool {
     is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")
@@ -29,13 +29,13 @@ pub(crate) fn has_avx512() -> bool {
 
 /// Numbers of several runs side by side.
 pub(crate) trait Lanes: Scalar {
-    /// How many.
+    /// Number of lanes.
     const COUNT: usize;
 
     /// The number of lane `i`.
     fn lane(&self, i: usize) -> f64;
 
-    /// Gives lane `i` another number.
+    /// Sets the number of lane `i`.
     fn set_lane(&mut self, i: usize, value: f64);
 
     /// Each number with the lower half of its 64 bits cleared.

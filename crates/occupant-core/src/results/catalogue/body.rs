@@ -72,7 +72,7 @@ impl Owner for OfBody {
 
 type Instrument = Quantity<OfBody>;
 
-/// Message `Instruments`: what the load cells of a dummy would read.
+/// Message `Instruments`: readings of a dummy's load cells.
 pub(super) fn of_dummy(marks: &Landmarks) -> impl Iterator<Item = Instrument> {
     let femurs = marks.legs.right.map(|_| RIGHT_FEMUR).into_iter().chain(marks.legs.left.map(|_| LEFT_FEMUR));
     marks.neck.map(|_| NECK).into_iter().flatten().chain(femurs)
@@ -107,7 +107,7 @@ const NONE: Reaction = {
     Reaction { force_n: none, moment_n_m: none }
 };
 
-/// Three numbers of what the instruments of a body read.
+/// Three readings of the instruments of a body.
 fn read(s: &Sample<'_>, from: usize) -> Vector3<f64> {
     Vector3::from_column_slice(&s.readings[s.of][from..from + 3])
 }

@@ -14,7 +14,7 @@ impl Owner for OfDrive {
     type At<'a> = [f64; DRIVE_NUMBERS];
 }
 
-/// The numbers of a vehicle (index) at the time of an output, on straight lines between its stations.
+/// Values of a vehicle (index) at the time of an output, by linear interpolation between its stations.
 pub(super) fn at(s: &Sample<'_>, vehicle: usize) -> [f64; DRIVE_NUMBERS] {
     let log = &s.model.setup().logs[vehicle];
     let last = log.times_s.len() - 1;

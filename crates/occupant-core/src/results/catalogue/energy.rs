@@ -10,10 +10,10 @@ impl Owner for Effort {
     type At<'a> = Effort;
 }
 
-/// An energy of the ledger as a whole.
+/// An energy of the ledger.
 pub(super) type Part = (fn(&EnergyLedger) -> f64, Quantity<Energy>);
 
-/// The first energies of the message `EnergyLedger`, before those of the force elements.
+/// First energies of the message `EnergyLedger`, before those of the force elements.
 #[rustfmt::skip]
 pub(super) const MOTION: [Part; 3] = [
     (|e| e.kinetic_j, energy(2, "kinetic", "kinetic energy in space", "kinetic energy in space")),
@@ -23,14 +23,14 @@ pub(super) const MOTION: [Part; 3] = [
 
 const RELATIVE: &str = "kinetic energy of the motion relative to the vehicle";
 
-/// The last ones.
+/// Last energies of that message.
 #[rustfmt::skip]
 pub(super) const BALANCE: [Part; 2] = [
     (|e| e.vehicle_work_j, energy(12, "vehicle_work", "work of the vehicle on the occupant", "work of the moving vehicle on the occupant since the start")),
     (|e| e.balance_j, energy(13, "balance", "present sum less the sum at the start", "present sum less the sum at the start; 0 for an exact integration")),
 ];
 
-/// Message `EnergyOfBody`: those of one of several bodies.
+/// Message `EnergyOfBody`: energies of one of several bodies.
 #[rustfmt::skip]
 pub(super) const OF_BODY: [Part; 6] = [
     (|e| e.kinetic_j, energy(2, "kinetic", "kinetic energy of {} in space", "kinetic energy in space")),

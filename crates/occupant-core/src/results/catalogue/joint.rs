@@ -17,7 +17,7 @@ impl Owner for OfJoint {
 
 type Of = Quantity<OfJoint>;
 
-/// A field of the message `JointAngles`, which has one for each joint of a body: its number is the report's joint number + 1.
+/// Field of the message `JointAngles`, one for each joint of a body: its number is the report's joint number + 1.
 pub(super) fn angle(tree: &Tree, joint: Joint) -> Of {
     let row = &tree[joint];
     let body = tree.body_of(row.distal);

@@ -18,7 +18,7 @@ use crate::vehicle::PathCursor;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfMarker;
 
-/// Place, velocity, acceleration, and the way from where it was at the start of the run.
+/// Position, velocity, acceleration, and displacement since the start of the run.
 type Motion = [Vector3<f64>; 4];
 
 impl Owner for OfMarker {
@@ -65,7 +65,7 @@ const SEGMENT: [&str; 4] = [
     "accelerometer reading: acceleration minus gravity",
 ];
 
-/// The place of a point at the start of the run, as a frame has it.
+/// Position of a point at the start of the run, relative to a frame.
 pub(super) fn start_m(model: &Model, site: &Site<f64>, frame: MarkerFrame) -> Vector3<f64> {
     let place =
         site.place(&Kinematics::new(&model.system().skeleton, &model.start().state), Use::Contact).1.to_vector();
@@ -78,7 +78,7 @@ pub(super) fn start_m(model: &Model, site: &Site<f64>, frame: MarkerFrame) -> Ve
     homes[tree.body_of(tree.segment(site.segment))].point_to_frame(place)
 }
 
-/// The motion of a point, that was at `start_m`, as a frame has it.
+/// Motion of a point that was at `start_m`, relative to a frame.
 pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame, start_m: &Vector3<f64>) -> Motion {
     let (k, by, n) = (&s.evaluation.kinematics, &s.evaluation.accelerations, site.segment);
     let (arm, place, velocity) = site.place(k, Use::Contact);

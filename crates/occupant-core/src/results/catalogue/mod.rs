@@ -29,7 +29,7 @@ use crate::results::sample::Sample;
 
 pub use sphere::touch;
 
-/// How a value is taken from a sample of the model that was catalogued.
+/// Access to a value in a sample of the catalogued model.
 #[derive(Clone)]
 pub struct Source(Arc<dyn Fn(&Sample<'_>) -> Value + Send + Sync>);
 
@@ -51,7 +51,7 @@ impl fmt::Debug for Source {
     }
 }
 
-/// A message type of the result file, its topic and its fields by number.
+/// Message type of the result file, with its topic and its fields by number.
 #[derive(Clone, Debug)]
 pub struct Message {
     /// Name of the type.
@@ -69,18 +69,18 @@ pub struct Field {
     pub number: u32,
     /// Quantity, axes, unit.
     pub name: String,
-    /// What it is.
+    /// Meaning.
     pub meaning: Cow<'static, str>,
     /// Its type.
     pub kind: Kind,
-    /// Where it comes from; none in a message that is written as a whole.
+    /// Source; none in a message that is written as a whole.
     pub source: Option<Source>,
 }
 
-/// Where message types of force elements stand in [`ORDER`].
+/// Position of the message types of force elements in [`ORDER`].
 const ELEMENTS: &str = "";
 
-/// Message types in the order in which a file has them.
+/// Message types in their order in a file.
 const ORDER: [&str; 14] = [
     "VehicleMotion",
     "DriveState",
@@ -98,7 +98,7 @@ const ORDER: [&str; 14] = [
     "ReportCoordinates",
 ];
 
-/// All messages of a model that have results at every output, in the order in which a file has them.
+/// All messages of a model with results at every output, in their order in a file.
 pub fn messages(model: &Model) -> Vec<Message> {
     let mut messages = Catalogue::of(model).messages;
     let place = |of: &str| ORDER.iter().position(|name| *name == of);
@@ -128,18 +128,18 @@ impl Visitor for Elements<'_> {
     }
 }
 
-/// What quantities of a list belong to in a model.
+/// Owner of the quantities of a list in a model.
 struct Place<'a> {
     /// Message type.
     message: &'static str,
     topic: String,
-    /// Beginning of the names of channels.
+    /// Prefix of the channel names.
     name: &'a str,
-    /// The owner in words.
+    /// Text of the owner.
     words: &'a str,
 }
 
-/// The lists put together.
+/// The combined lists.
 #[derive(Default)]
 pub(super) struct Catalogue {
     pub(super) channels: Vec<Channel>,
@@ -238,7 +238,7 @@ impl Catalogue {
         }
     }
 
-    /// What a program's own forces show.
+    /// Values shown by a program's own forces.
     fn own_forces(&mut self, model: &Model) {
         for (i, own) in model.setup().own_forces.iter().enumerate() {
             for (k, ForceChannel { name, unit }) in own.force.channels().into_iter().enumerate() {
@@ -301,7 +301,7 @@ impl Catalogue {
         self.whole("EnergyLedger", "/energy", "energy", &[quantity], move |s| of(&s.energy));
     }
 
-    /// Adds a list of what a model has once.
+    /// Adds a list of quantities that exist once in a model.
     fn whole<O: Owner + 'static>(
         &mut self,
         message: &'static str,
@@ -313,7 +313,7 @@ impl Catalogue {
         self.add(&Place { message, topic: topic.to_owned(), name, words: name }, list, at);
     }
 
-    /// Adds the quantities of one owner; `at` gives it at an output.
+    /// Adds the quantities of one owner; `at` gives its data at an output.
     fn add<O: Owner + 'static>(
         &mut self,
         place: &Place<'_>,
@@ -359,13 +359,13 @@ impl Catalogue {
 }
 
 impl Message {
-    /// A message of what a model has once.
+    /// Message of something that exists once in a model.
     fn of(name: &'static str, topic: &str, fields: impl IntoIterator<Item = Field>) -> Self {
         Message { name, topic: topic.to_owned(), fields: [time()].into_iter().chain(fields).collect() }
     }
 }
 
-/// The fields of a quantity: its own and that of its magnitude.
+/// Fields of a quantity: its own and that of its magnitude.
 fn fields<O: Owner>(quantity: &Quantity<O>, source: Source) -> impl Iterator<Item = Field> + use<O> {
     let own = quantity.field.map(|words| Field {
         number: words.number,
@@ -384,7 +384,7 @@ fn fields<O: Owner>(quantity: &Quantity<O>, source: Source) -> impl Iterator<Ite
     own.into_iter().chain(resultant)
 }
 
-/// The time, in the first field of every message.
+/// Time, the first field of every message.
 fn time() -> Field {
     Field {
         number: 1,
@@ -395,7 +395,7 @@ fn time() -> Field {
     }
 }
 
-/// The topic of what belongs to a body, or to one of several, whose name stands before a dot.
+/// Topic of a body's data, or of one of several bodies, whose name precedes a dot.
 fn topic_of(of: &str, name: &str) -> String {
     match name.split_once('.') {
         Some((occupant, part)) => format!("/occupants/{}/{of}/{part}", in_small_letters(occupant)),
@@ -404,7 +404,7 @@ fn topic_of(of: &str, name: &str) -> String {
     }
 }
 
-/// Names that a user chose, each with a topic of its own below `parent`.
+/// User's names, each with a topic of its own below `parent`.
 fn named<'a>(parent: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(&'a str, String)> {
     let mut taken = BTreeSet::new();
     let mut topic = |name: &str| {
@@ -420,7 +420,7 @@ fn named<'a>(parent: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(&'a
     names.into_iter().map(|name| (name, topic(name))).collect()
 }
 
-/// Letters and digits stay, in small letters; anything else becomes `_`.
+/// Lower case; characters other than letters and digits become `_`.
 fn in_small_letters(name: &str) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     name.chars().map(letter).collect()

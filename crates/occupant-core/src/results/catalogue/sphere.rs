@@ -5,7 +5,7 @@ use occupant_units::unit::Unit::{Metre, MetrePerSecond, Newton, One};
 use crate::quantity::{Axes, Kind, Owner, Quantity, Take, Value, values};
 use crate::results::sample::{Contact, Sample};
 
-/// A contact sphere, by its number.
+/// A contact sphere, by its index.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfSphere;
 
@@ -36,7 +36,7 @@ pub(super) const QUANTITIES: &[Of] = &[
     Of::new(One, Axes::None, Take::Parts("occupant.Touch", |at| touches(at))).field(7, "touches", "surfaces touched, one by one (item 5)"),
 ];
 
-/// What a sphere feels of bags, where there are any.
+/// Forces of bags on a sphere, if there are any.
 pub(super) const OF_BAGS: &[Of] = &[Of::vector(Newton, Axes::Vehicle, |(s, i)| s.pull_n(*i, |pull| pull.of == "bag"))
     .channel("bag_force", "bag forces on the {}")
     .field(8, "bag_force", "sum of the forces of bags")];
@@ -45,7 +45,7 @@ fn touches<'a>((s, i): &(&'a Sample<'a>, usize)) -> Vec<Vec<(u32, Value)>> {
     s.contacts().filter(|c| c.sphere == *i).map(|c| values(TOUCH, &(*s, c))).collect()
 }
 
-/// A sphere and a surface that touch.
+/// A sphere and a surface in contact.
 #[derive(Clone, Copy, Debug)]
 struct OfTouch;
 

@@ -6,7 +6,7 @@ use crate::forces::contact::surface::Frame;
 use crate::quantity::{Axes, Owner, Quantity};
 use crate::results::sample::Sample;
 
-/// A surface or, behind all surfaces, a solid, by its number, and what carries it in the end.
+/// A surface or, after all surfaces, a solid, by its index, and the frame that carries it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfSurface;
 
@@ -16,7 +16,7 @@ impl Owner for OfSurface {
 
 type Of = Quantity<OfSurface>;
 
-/// The time histories of one that `carrier` carries; result files have them touch by touch, with the spheres.
+/// Time histories of a surface on `carrier`; result files have them by contact, with the spheres.
 pub(super) fn quantities(carrier: Frame) -> [Of; 2] {
     let axes = if carrier == Frame::Space { Axes::Space } else { Axes::Vehicle };
     [

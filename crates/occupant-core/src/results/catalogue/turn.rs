@@ -39,7 +39,7 @@ pub(super) const JOINT: &[Joined] =
         "rotation of the distal segment of the {} relative to the proximal one, as a rotation vector in the proximal segment's SAE J211 axes",
     )];
 
-/// The home of a segment's body at the start.
+/// Home frame of the segment's body at the start.
 fn home_at_start(s: &Sample<'_>, segment: Segment) -> FrameMotion {
     let (t_s, cursor) = (s.model.setup().time.start_s, &mut PathCursor::default());
     let homes = s.model.homes(&s.model.frames(t_s, t_s, cursor), &s.model.vehicle(t_s, t_s, cursor));
@@ -59,7 +59,7 @@ fn axes(s: &Sample<'_>, segment: Segment) -> Matrix3<f64> {
     s.evaluation.kinematics.axes[segment.index()].to_matrix()
 }
 
-/// From upright, where a segment has X ahead, Y left and Z up and the vehicle X ahead, Y right and Z down.
+/// Rotation from upright, where a segment has X forward, Y left and Z up and the vehicle X forward, Y right and Z down.
 fn from_upright(s: &Sample<'_>, segment: Segment, home: &FrameMotion) -> Vector3<f64> {
     rotation_vector(home.rotation.tr_mul(&axes(s, segment)) * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)))
 }

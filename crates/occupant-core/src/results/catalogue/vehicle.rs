@@ -17,7 +17,7 @@ impl Owner for OfVehicle {
     type At<'a> = Vehicle;
 }
 
-/// Its motion in space, and its pose as the path gives it.
+/// Motion in space, and pose as given by the path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vehicle {
     motion: FrameMotion,
@@ -29,13 +29,13 @@ pub(super) fn first(s: &Sample<'_>) -> Vehicle {
     Vehicle { motion: *s.vehicle, pose: s.vehicle_pose }
 }
 
-/// The vehicle that is another frame (index).
+/// The vehicle of another frame (index).
 pub(super) fn other(s: &Sample<'_>, frame: usize) -> Vehicle {
     let (path, cursor) = (&s.model.setup().frames[frame].path, &mut PathCursor::default());
     Vehicle { motion: path.shown_motion(s.time_s, cursor), pose: path.attitude(s.time_s, cursor) }
 }
 
-/// The other frames (index) that are vehicles: they hang on none, and are not the ground, which stands in the origin.
+/// Other frames (indices) that are vehicles: without a parent, and not the ground, whose origin is fixed.
 pub(super) fn others(setup: &Setup) -> impl Iterator<Item = (usize, &OtherFrame)> {
     let is_vehicle = |frame: &OtherFrame| frame.parent.is_none() && frame.path != VehiclePath::parked();
     setup.frames.iter().enumerate().filter(move |(_, frame)| is_vehicle(frame))
@@ -61,14 +61,14 @@ pub(super) fn quantities(path: &VehiclePath) -> Vec<Of> {
     own.into_iter().chain(QUANTITIES).collect()
 }
 
-/// What accelerations are: as channel, as field, and about the axes as both.
+/// Meaning of accelerations: as channel, as field, and angular ones as both.
 const FROM_PATH: [&str; 4] = [
     "kinematic acceleration of the {}'s centre of gravity",
     "acceleration of the centre of gravity",
     "angular acceleration along the vehicle's axes",
     "angular acceleration of the {}",
 ];
-/// The same where a table is read along straight lines, whose velocity jumps.
+/// The same for a table with linear interpolation, whose velocity jumps.
 const FROM_DIFFERENCES: [&str; 4] = [
     "kinematic acceleration of the {}'s centre of gravity, from second differences of the stations of its path",
     "acceleration of the centre of gravity, from second differences of the stations of the path",

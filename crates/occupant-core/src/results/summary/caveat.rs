@@ -12,31 +12,34 @@ use crate::forces::rate::Rate;
 use crate::model::settle::Settled;
 use crate::results::energy::{Balance, EnergyCheck};
 
-/// Runs of every kind keep their energy better than this where their steps are short enough: by 1e-4 and less, as a rule.
+/// Energy error above which steps are too long: with short enough steps, runs of every kind stay below it, as a rule at
+/// 1e-4 or less.
 const ROUGH: f64 = 1e-3;
-/// Peaks of forces, depths and places are known of outputs this far apart, s, and a rounding error more.
+/// Longest output interval, plus rounding, s, for which peaks of forces, depths and positions at outputs are exact
+/// enough.
 const APART_S: f64 = 2e-3 + 1e-9;
-/// A blow to the head, N, and a stiffness that no head has: a dummy's on a steel plate has 3.7 MN/m in 49 CFR 572.32.
+/// Force of a head impact, N, and a stiffness above that of any head, N/m: a dummy's head on a steel plate has 3.7 MN/m
+/// in 49 CFR 572.32.
 const HEAD_STRUCK_N: f64 = 2000.0;
 const RIGID_N_M: f64 = 5e6;
-/// The figures that are such peaks.
+/// Results that are peaks of this kind.
 const PEAKS: [&str; 6] = ["belts.*", "straps.*", "joints.*", "muscles.*", "contacts.*", "head_excursion.*"];
 
-/// Why some figures of a run should not be quoted.
+/// Reason why some results of a run should not be quoted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Caveat {
-    /// A word for tables of many runs, such as `neck_beyond_stop`.
+    /// Identifier for tables of many runs, such as `neck_beyond_stop`.
     pub name: String,
-    /// What was seen, and which figures it spoils.
+    /// Finding, and the results that it affects.
     pub text: String,
-    /// Names of the figures and measures; a name that ends with `*` matches all that begin like it.
+    /// Names of the results and measures; a final `*` matches any ending.
     pub figures: Vec<String>,
 }
 
 impl Caveat {
-    /// Name of the one on a run whose results mean nothing.
+    /// Name of the caveat for invalid results.
     pub const BALANCE_LOST: &str = "energy_balance_lost";
-    /// Name of the one on figures of a part of a run.
+    /// Name of the caveat for results of a part of a run.
     pub const PART: &str = "part_of_a_run";
     /// Name of the caveat on ejections, which applies to a single run.
     pub const CHANCE: &str = "ejection_by_chance";
@@ -45,29 +48,29 @@ impl Caveat {
         Caveat { name: name.into(), text, figures }
     }
 
-    /// Whether it spoils the figure or measure of this name.
+    /// Whether it affects the result or measure with this name.
     pub fn touches(&self, figure: &str) -> bool {
         self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
     }
 
-    /// Whether it spoils no figure: it says how far the model of the run can be trusted.
+    /// Whether it affects no particular result: a note on the uncertainty of the model.
     pub fn is_note(&self) -> bool {
         self.figures.is_empty()
     }
 
-    /// The same for one of several occupants, whose name precedes those of its figures.
+    /// The same for one of several occupants, whose name precedes those of its results.
     pub(super) fn of_occupant(self, name: &str) -> Self {
         let figures =
             self.figures.iter().map(|figure| if name.is_empty() { figure.clone() } else { format!("{name}.{figure}") });
         Caveat { figures: figures.collect(), ..self }.with_subject(name)
     }
 
-    /// The same, whose text says of whom it is; its figures have their names.
+    /// The same with the subject in its text; its results have the subject's names.
     pub(super) fn with_subject(self, name: &str) -> Self {
         if name.is_empty() { self } else { Caveat { text: format!("{name}: {}", self.text), ..self } }
     }
 
-    /// A run that did not complete; none for one that did.
+    /// Run that did not complete; none for one that did.
     pub(super) fn of_ending(status: RunStatus, reached_s: f64) -> Option<Self> {
         let (name, ended) = match status {
             RunStatus::Completed => return None,
@@ -78,7 +81,7 @@ impl Caveat {
         Some(Caveat::new(name, text, owned(&["*"])))
     }
 
-    /// A body that is still on its way when the run ends.
+    /// Body still in motion at the end of the run.
     pub(super) fn not_at_rest(body: &str, throw: &Throw) -> Option<Self> {
         let figures = ["distance", "slide_distance", "from_launch", "height"].map(|name| format!("throw.{name}"));
         let text = format!(
@@ -88,12 +91,12 @@ impl Caveat {
         (!throw.at_rest).then(|| Caveat::new("not_at_rest", text, figures.to_vec()).of_occupant(body))
     }
 
-    /// A part of a run alone.
+    /// Results of a part of a run only.
     pub(super) fn of_part(text: String) -> Self {
         Caveat::new(Self::PART, text, owned(&["*"]))
     }
 
-    /// What a resumed run counts from its own start, `from_s`, on.
+    /// Quantities that a resumed run counts from its own start, `from_s`.
     pub(super) fn of_rest(from_s: f64, summary: &Summary) -> Self {
         let text = format!(
             "the file resumes a run at {:.1} ms: peaks and measures cover the whole run, but events, throws, ejections and other caveats only the time from there on",
@@ -104,7 +107,7 @@ impl Caveat {
         Caveat::new(Self::PART, text, figures.collect())
     }
 
-    /// A run that did not keep its energy; none for one that did.
+    /// Energy error above 1 %; none below.
     pub(super) fn of_balance(energy: &EnergyCheck) -> Option<Self> {
         let (name, means) = match energy.balance {
             Balance::Kept => return None,
@@ -114,7 +117,7 @@ impl Caveat {
         Some(Caveat::new(name, format!("the energy balance is {}: {means}", energy.found()), owned(&["*"])))
     }
 
-    /// A run that kept its energy, but not as well as one whose steps are short enough; none for one that did.
+    /// Energy error below 1 % but above that of short enough steps; none below both.
     pub(super) fn of_rough_balance(energy: &EnergyCheck) -> Option<Self> {
         let is_rough = energy.balance == Balance::Kept && energy.balance_error > ROUGH;
         let text = format!(
@@ -126,8 +129,8 @@ impl Caveat {
         is_rough.then(|| Caveat::new("energy_balance_rough", text, owned(&["*"])))
     }
 
-    /// A fixed step that is longer than `most` time scales of what acted in the run: of `rates`, which are too fast for it, those of spheres that touched
-    /// something, and all others; none if there are none.
+    /// Fixed step longer than `most` time scales: `rates` are those that are too fast for it, of spheres in contact and
+    /// of all other elements; none without any.
     pub fn step_too_long(step_s: f64, most: f64, rates: &[&Rate], summary: &Summary) -> Option<Self> {
         let is_sphere = |rate: &Rate| summary.first_contacts.iter().any(|first| first.sphere == rate.of);
         let touched =
@@ -144,7 +147,7 @@ impl Caveat {
         Some(Caveat::new("step_too_long", text, owned(&["*"])))
     }
 
-    /// A sphere that friction on a surface may have made chatter, at a fixed step that is too long for it.
+    /// Chatter of a sphere by friction on a surface, with a fixed step that is too long.
     pub fn chatters(sphere: &str, surface: &str, step_s: f64, time_s: f64) -> Self {
         let text = format!(
             "friction of {sphere} on {surface} is too stiff for the step of {:.4} ms at {:.1} ms: the sphere may chatter, and later results depend on the step. Use a shorter step or error control, or check them with --estimate-error",
@@ -154,7 +157,7 @@ impl Caveat {
         Caveat::new("friction_chatters", text, owned(&["*"]))
     }
 
-    /// Figures that a finer integration changes, by their names with the part by which each does; none if there are none.
+    /// Results that change with finer integration, by name with the relative change; none without any.
     pub fn undetermined(against: &str, changed: &[(String, f64)], figures: Vec<String>) -> Option<Self> {
         let (name, part) = changed.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let text = format!(
@@ -165,7 +168,7 @@ impl Caveat {
         Some(Caveat::new("undetermined", text, figures))
     }
 
-    /// A body that does not rest where the run puts it, and its figures of the first 50 ms.
+    /// Body not at rest at the start, and its results of the first 50 ms.
     pub(super) fn unbalanced(left: &Settled, early: Vec<String>) -> Self {
         let text = format!(
             "the body is not in balance at the start: a force of {:.0} N is left over (weight {:.0} N), so results of the first {:.0} ms show how it settles. Set posture.settle = true, or move the surfaces so that they just carry it",
@@ -176,7 +179,7 @@ impl Caveat {
         Caveat::new("start_unbalanced", text, early)
     }
 
-    /// A joint that turned to `turned` beyond the end of a stop.
+    /// Joint turned to `turned`, beyond the end of a stop.
     pub(super) fn beyond_stop(body: &Body, joint: Joint, turned: &Turned) -> Self {
         let row = &body.tree[joint];
         let is_neck = body.tree.landmarks_at(row.distal).neck == Some(joint);
@@ -193,19 +196,19 @@ impl Caveat {
         Caveat::new(format!("{}_beyond_stop", row.name), text, figures)
     }
 
-    /// A neck of one joint that has the limit of one of two.
+    /// Neck of one joint with the limit of one of two neck joints.
     pub(super) fn half_a_neck() -> Self {
         let text = "a one-joint neck with the limits of a two-joint one (preset gebod or person): 218 and 178 N·m at 52° and 44°, instead of 88 to 108 N·m at 64° to 78° in the pendulum test of 49 CFR 572.33. Do not quote neck results";
         Caveat::new("neck_of_gebod", text.to_owned(), owned(&["nij", "neck_*"]))
     }
 
-    /// A sphere that overlapped a surface by `overlap` and felt nothing.
+    /// Sphere that overlapped a surface by `overlap` without force.
     pub(super) fn passed(body: &Body, sphere: usize, surface: &str, overlap: Peak) -> Self {
         let seen = format!("passed {} deep through {surface} {} without force", mm(overlap.value), at(overlap));
         Caveat::of_sphere(body, sphere, "passed", seen)
     }
 
-    /// A sphere that went deeper into a surface than anything yields.
+    /// Penetration of a surface beyond any real deformation.
     pub(super) fn too_deep(body: &Body, sphere: usize, surface: &str, depth: Peak, most_m: f64) -> Self {
         let seen = format!(
             "{} deep in {surface} {}; {} is the most that is meaningful",
@@ -216,14 +219,14 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "too_deep", seen)
     }
 
-    /// A sphere that used up a solid, or went through it.
+    /// Sphere that bottomed out a solid, or passed through it.
     pub(super) fn bottomed(body: &Body, sphere: usize, solid: &str, depth: Peak, thickness_m: f64) -> Self {
         let (deep, share) = (mm(depth.value), 100.0 * depth.value / thickness_m);
         let seen = format!("{deep} deep in {solid} {}, {share:.0} % of its {}", at(depth), mm(thickness_m));
         Caveat::of_sphere(body, sphere, "bottomed", seen)
     }
 
-    /// A sphere that went deeper than the force function of what it met is known.
+    /// Penetration beyond the last point of a force function.
     pub(super) fn beyond_curve(body: &Body, sphere: usize, surface: &str, beyond: Peak, last_m: f64) -> Self {
         let (deep, last) = (mm(last_m + beyond.value), mm(last_m));
         let seen =
@@ -231,7 +234,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "beyond_curve", seen)
     }
 
-    /// Webbing that was stretched beyond the last point of its curve.
+    /// Webbing stretched beyond the last point of its curve.
     pub(super) fn stretched(strap: &str, beyond: Peak, last: f64) -> Self {
         let [strain, last] = [last + beyond.value, last].map(|strain| 1e2 * strain);
         let seen = format!(
@@ -242,7 +245,7 @@ impl Caveat {
         Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{}.*", word(strap))])
     }
 
-    /// A limiter that gave more webbing than its curve says.
+    /// Limiter that paid out more webbing than its curve has.
     pub(super) fn run_out(belt: &str, beyond: Peak, last_m: f64) -> Self {
         let (way, last) = (mm(last_m + beyond.value), mm(last_m));
         let seen = format!("limiter of {belt} bottomed out at {way} {}; its curve ends at {last}", at(beyond));
@@ -250,7 +253,7 @@ impl Caveat {
         Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{}_*", word(belt))])
     }
 
-    /// A lap belt that came off a wing of the pelvis, 1 the left one, 2 the right one, at a time, s.
+    /// Lap belt that left a wing of the pelvis (1: left, 2: right) at a time, s.
     pub(super) fn submarined(body: &Body, chain: &Chain, (time_s, wing): (f64, f64)) -> Option<Self> {
         let pelvis = chain.nodes.iter().find_map(|node| match &node.site {
             Site::Track(segment, track) => track.wing.map(|_| body.tree.segment(*segment)),
@@ -269,13 +272,13 @@ impl Caveat {
         Some(Caveat::new(format!("submarining_{side}"), text, figures))
     }
 
-    /// A shoulder belt under load that is off the shoulder since a time, s.
+    /// Shoulder belt off the shoulder under load since a time, s.
     pub(super) fn off_shoulder(chain: &Chain, time_s: f64) -> Self {
         let seen = format!("was off the shoulder at {:.1} ms, under load", 1e3 * time_s);
         Caveat::of_shoulder(chain, "off_shoulder", &format!("{seen}: it bears on the chest alone"))
     }
 
-    /// A shoulder belt under load beside the neck since a time, s.
+    /// Shoulder belt beside the neck under load since a time, s.
     pub(super) fn at_neck(chain: &Chain, time_s: f64) -> Self {
         let seen = format!("slid to the neck at {:.1} ms, under load", 1e3 * time_s);
         Caveat::of_shoulder(chain, "on_neck", &format!("{seen}: what it does to the neck is not modelled"))
@@ -288,7 +291,7 @@ impl Caveat {
         Caveat::new(format!("{belt}_{sign}"), text, figures)
     }
 
-    /// Belts round the sphere of a pelvis whose pull would have drawn them off its wings at a time, s.
+    /// Belts round the sphere of a pelvis whose force would have pulled them off its wings at a time, s.
     pub(super) fn would_submarine(body: &Body, sphere: usize, belts: &str, own: Vec<String>, time_s: f64) -> Self {
         let part = &body.spheres[sphere];
         let text = format!(
@@ -302,7 +305,7 @@ impl Caveat {
         Caveat::new(format!("submarining_{}", word(&part.name)), text, own.into_iter().chain(spoiled).collect())
     }
 
-    /// A plate that was pressed in farther than any test did.
+    /// Plate deflected beyond the range of all tests.
     pub(super) fn pressed(plate: &str, most: Peak, known: Known) -> Self {
         let seen = match known {
             Known::Depth(depth_m) => format!("{:.0} % of the chest's depth", 100.0 * most.value / depth_m),
@@ -321,7 +324,7 @@ impl Caveat {
         Caveat::new(format!("{plate}_too_deep"), text, figures)
     }
 
-    /// How far results of a deformable chest can be trusted. It appears in every such run, so it marks no figure.
+    /// Uncertainty of a deformable chest. It appears in every such run, so it marks no result.
     pub(super) fn of_chest(chest: &Chest) -> Self {
         let of = match chest.preset.as_str() {
             "own" => return Caveat::own_chest(chest),
@@ -339,7 +342,7 @@ impl Caveat {
         Caveat::new("chest_of_one_share", text.to_owned(), Vec::new()).with_subject(&chest.of)
     }
 
-    /// A column that stroked farther than its force is known.
+    /// Column stroke beyond the last point of its force.
     pub(super) fn stroked(Beyond { name: column, turns }: &Beyond, beyond: Peak, last: f64) -> Self {
         let shown = |x: f64| if *turns { format!("{:.1}°", x.to_degrees()) } else { mm(x) };
         let (way, last) = (shown(last + beyond.value), shown(last));
@@ -359,7 +362,7 @@ impl Caveat {
         Caveat::new(format!("{column}_beyond_stroke"), text, vec![format!("columns.{column}.*")])
     }
 
-    /// A sphere that was in the way of a bag when it fired, or pressed it in as far as its mount or its middle.
+    /// Sphere in the way of a bag at firing, or that compressed it down to its mount or its middle.
     pub(super) fn of_bag(body: &Body, sphere: usize, sign: &str, bag: &str, time_s: f64) -> Self {
         let at = format!("at {:.1} ms", 1e3 * time_s);
         let seen = if sign == "caught" {
@@ -372,7 +375,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, sign, seen)
     }
 
-    /// A sphere that touched a part behind a bag while the bag was between them.
+    /// Sphere in contact with a part behind a bag through the bag.
     pub(super) fn touched_through(body: &Body, sphere: usize, bag: &str, what: &str, time_s: f64) -> Self {
         let seen = format!("touched {what} through the bag {bag} at {:.1} ms", 1e3 * time_s);
         let caveat = Caveat::of_sphere(body, sphere, "through_bag", seen.clone());
@@ -385,7 +388,7 @@ impl Caveat {
         Caveat { text, figures: Vec::new(), ..caveat }
     }
 
-    /// A sphere that left the compartment where nothing is modelled that would have stopped it.
+    /// Sphere that left the compartment where no geometry is modelled that would have stopped it.
     pub(super) fn left_compartment(body: &Body, sphere: usize, exit: &Exit) -> Self {
         let past = exit.past.as_ref().map_or(String::new(), |past| format!(", past {past}"));
         let seen = format!(
@@ -396,7 +399,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "left_compartment", seen)
     }
 
-    /// Measures whose largest value stands in a window that ends with the run; none if there are none.
+    /// Measures whose maximum is in a window cut off by the end of the run; none without any.
     pub(super) fn cut_off(reached_s: f64, cut: &[&Measure]) -> Option<Self> {
         let worst = cut.first()?;
         let (label, of) = (worst.label, cut.len());
@@ -408,14 +411,14 @@ impl Caveat {
         Some(Caveat::new("window_at_end", text, names_of(cut.iter().copied())))
     }
 
-    /// A sphere whose centre went through the axis of a bar or a rim, and was pushed on.
+    /// Sphere whose centre crossed the axis of a bar or a rim and was pushed onwards.
     pub(super) fn through(body: &Body, sphere: usize, solid: &str, depth: Peak) -> Self {
         let seen = format!("went through {solid} {} and was pushed out beyond", at(depth));
         Caveat::of_sphere(body, sphere, "through", seen)
     }
 
-    /// A head that struck something stiffer than a head is: at the greatest force on `struck` it was pressed in so little that only a rigid
-    /// skull on a rigid block would do the same. None of any other part.
+    /// Head that struck something stiffer than a head: at the greatest force, its penetration of `struck` was so small
+    /// that only a rigid skull on a rigid block fits it. None for other parts.
     pub(super) fn on_rigid(body: &Body, struck: &SpherePeak) -> Option<Self> {
         let is_head = |sphere: &ContactSphere| Some(sphere.segment) == body.tree.landmarks_at(sphere.segment).head;
         let sphere = body.spheres.iter().position(|sphere| sphere.part == struck.sphere && is_head(sphere))?;
@@ -429,7 +432,8 @@ impl Caveat {
         is_rigid.then(|| Caveat::of_sphere(body, sphere, "on_rigid", seen))
     }
 
-    /// Someone who left the compartment, and his figures from there on: a little at the start is much by then, and no energy balance shows it.
+    /// Ejected occupant, with results from ejection on: they amplify small changes of the start, and no energy balance
+    /// shows it.
     pub(super) fn by_chance(ejection: &Ejection, later: Vec<String>) -> Option<Self> {
         let first = ejection.parts.first()?;
         let text = format!(
@@ -447,7 +451,7 @@ impl Caveat {
         Caveat::new(format!("{}_{sign}", word(&own.part)), text, figures_of(body, own.segment))
     }
 
-    /// A limb that went through a surface between its spheres, the nearest of which was `clear` away.
+    /// Limb that passed through a surface between its spheres, the nearest of which was `clear` away.
     pub(super) fn cut(body: &Body, limb: Segment, surface: &str, clear: Peak) -> Self {
         let row = &body.tree[limb];
         let name = row.name.replace('_', " ");
@@ -456,9 +460,9 @@ impl Caveat {
         Caveat::new(format!("{}_cut", row.name), text, figures_of(body, limb))
     }
 
-    /// Readings between which too much happens: measures that change by a part of their value when every other one is left out;
-    /// none if all are close enough. `are_of_steps`: as of every run but those of whose steps nothing is known, which has peaks at
-    /// its outputs alone.
+    /// Interval of readings too long: measures that change by a part of their value if every second reading is left
+    /// out; none if all are exact enough. `are_of_steps` is false for runs without peaks of steps, which have peaks at
+    /// their outputs only.
     pub(super) fn too_coarse(interval_s: f64, off: &[(&Measure, f64)], are_of_steps: bool) -> Option<Self> {
         let worst = off.iter().max_by(|a, b| a.1.total_cmp(&b.1));
         let readings = if are_of_steps { "reading" } else { "output" };
@@ -481,7 +485,7 @@ impl Caveat {
         (!spoiled.is_empty()).then(|| Caveat::new(format!("{readings}s_too_coarse"), text, figures))
     }
 
-    /// A body that the dummy of limits and risks is not.
+    /// Body other than the dummy of the limits and risks.
     pub(super) fn other_dummy(dummy: Dummy, mass_kg: f64, measures: &[Measure]) -> Option<Self> {
         let differs = (mass_kg / dummy.mass_kg() - 1.0).abs() > 0.2;
         let text = format!(
@@ -494,14 +498,14 @@ impl Caveat {
     }
 }
 
-/// How far a joint went beyond a stop.
+/// Angle of a joint beyond a stop.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turned {
     /// Angle beyond the stop's end, rad.
     pub beyond: Peak,
-    /// The joint's angle; beyond an elastic limit the angle beyond it.
+    /// The joint's angle, or the excess beyond an elastic limit, rad.
     pub angle_rad: f64,
-    /// Where the stop ends; of an elastic limit how far beyond it a joint goes at most.
+    /// End of the stop, or the largest excess beyond an elastic limit, rad.
     pub stop_rad: f64,
     pub is_elastic: bool,
 }
@@ -518,11 +522,11 @@ fn mm(length_m: f64) -> String {
     format!("{:.0} mm", 1e3 * length_m)
 }
 
-/// Measures of how far and how fast a chest is pressed in.
+/// Measures of chest deflection and its rate.
 const OF_DEFLECTION: [&str; 6] =
     ["chest_deflection", "chest_compression", "deflection_rate", "viscous_criterion", "cti", "pc_score"];
 
-/// The names of measures, in measures and in figures.
+/// Names of measures among measures and results.
 fn names_of<'a>(measures: impl Iterator<Item = &'a Measure>) -> Vec<String> {
     measures.flat_map(|m| [Some(m.name), m.figure]).flatten().map(str::to_owned).collect()
 }
@@ -531,13 +535,13 @@ fn owned(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }
 
-/// What stands before the names of measures of the body of a segment.
+/// Prefix of the measures of the body of a segment.
 fn prefix(body: &Body, segment: Segment) -> String {
     let name = body.tree.bodies()[body.tree.body_of(segment)].name;
     if name.is_empty() { String::new() } else { format!("{name}.") }
 }
 
-/// What is measured of a segment, and of the spheres on it.
+/// Results of a segment, and of the spheres on it.
 fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
     let marks = body.tree.landmarks_at(segment);
     let is_of = |leg: Option<Limb>| leg.is_some_and(|leg| body.tree.is_of(segment, &leg));

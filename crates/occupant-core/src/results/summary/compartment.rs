@@ -14,45 +14,45 @@ use crate::forces::contact::surface::{Frame, Outline};
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// What left the compartment of a body's vehicle.
+/// Ejection of a body from the compartment of its vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ejection {
-    /// How much of the body left it.
+    /// Partial or complete.
     pub degree: Degree,
-    /// When all of it was outside for the first time.
+    /// First time with the whole body outside.
     pub complete_s: Option<f64>,
-    /// The parts that left it, in the order in which they did.
+    /// Parts that left it, in order of time.
     pub parts: Vec<Exit>,
-    /// The parts that never did.
+    /// Parts that never did.
     pub inside: Vec<String>,
 }
 
-/// How much of a body was ejected.
+/// Degree of ejection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Degree {
-    /// Some parts of it.
+    /// Some parts.
     Partial,
-    /// All of it at one time.
+    /// All parts at one time.
     Complete,
 }
 
-/// How a part of the body left the compartment.
+/// Ejection of a part of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Exit {
     /// The part.
     pub part: String,
-    /// The first output at which a sphere of it was outside.
+    /// First output with a sphere of it outside.
     pub time_s: f64,
-    /// The side of the compartment that it went beyond.
+    /// Side of the compartment.
     pub side: Side,
-    /// The nearest surface or solid of the compartment there.
+    /// Nearest surface or solid of the compartment there.
     pub past: Option<String>,
-    /// Where the sphere's centre was, in the axes of the vehicle.
+    /// Position of the sphere's centre, vehicle axes.
     pub place_m: [f64; 3],
 }
 
-/// A side of a compartment.
+/// Side of a compartment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
@@ -71,10 +71,10 @@ pub enum Side {
 }
 
 impl Side {
-    /// Those against and along the axes of a vehicle.
+    /// Sides against and along the axes of a vehicle.
     const ALL: [[Side; 2]; 3] = [[Side::Behind, Side::Ahead], [Side::Left, Side::Right], [Side::Above, Side::Below]];
 
-    /// In words.
+    /// As text.
     pub fn words(self) -> &'static str {
         match self {
             Side::Behind => "to the rear",
@@ -87,23 +87,23 @@ impl Side {
     }
 }
 
-/// The compartment that a body starts in, and what has left it.
+/// Initial compartment of a body, and the parts that have left it.
 #[derive(Clone, Debug)]
 pub(super) struct Compartment {
     pub name: &'static str,
     /// Its spheres (indices), and whether each is of the head, the chest or the pelvis.
     spheres: Vec<(usize, bool)>,
-    /// Surfaces and solids of the vehicle (indices), and where they are.
+    /// Surfaces and solids of the vehicle (indices), and their bounds.
     walls: Vec<(usize, Bounds)>,
-    /// From the first output on.
+    /// Bounds of the compartment, known from the first output on.
     room: Option<Bounds>,
-    /// By sphere of it.
+    /// Exits by sphere.
     exits: Vec<Option<(f64, Side, Point3<f64>)>>,
     complete_s: Option<f64>,
 }
 
 impl Compartment {
-    /// Those of all bodies of a model that start in a vehicle: of occupants, free ones.
+    /// Compartments of all bodies of a model that start in a vehicle: of occupants, free ones.
     pub(super) fn all(model: &Model) -> Vec<Compartment> {
         let (setup, body) = (model.setup(), model.body());
         if setup.is_on_rig() && setup.members.is_empty() {
@@ -163,7 +163,7 @@ impl Compartment {
         }
     }
 
-    /// What left it; none if neither head nor chest nor pelvis did.
+    /// Ejection; none unless head, chest or pelvis left.
     pub(super) fn ejection(&self, spheres: &[ContactSphere], surfaces: &[String]) -> Option<Ejection> {
         let left = || self.spheres.iter().zip(&self.exits).filter_map(|(sphere, exit)| Some((sphere, (*exit)?)));
         left().find(|((_, is_trunk), _)| *is_trunk)?;
@@ -201,7 +201,7 @@ fn ball(sample: &Sample<'_>, sphere: usize) -> Bounds {
     Bounds::ball(&sample.sphere_centre_m(sphere), sample.model.body().spheres[sphere].radius_m)
 }
 
-/// The box of a surface that ends somewhere.
+/// Bounding box of a bounded surface.
 fn bounds_of(outline: &Outline) -> Option<Bounds> {
     match outline {
         Outline::Polygon(corners) => Some(Bounds::of(corners)),

@@ -6,19 +6,19 @@ use crate::forces::table::{Cell, Table, Tables};
 use crate::forces::{Listed, Visitor, visit_kinds};
 use crate::model::Model;
 
-/// The elements of the kinds that have peaks, in the order in which [`Peaks`](crate::results::peaks::Peaks) has theirs.
+/// Elements of the kinds with peaks, in the order of [`Peaks`](crate::results::peaks::Peaks).
 #[derive(Clone, Debug, Default)]
 pub(super) struct Elements(Vec<OfKind>);
 
 #[derive(Clone, Debug)]
 struct OfKind {
     of: &'static str,
-    /// None of a kind whose table is not shown.
+    /// Names; empty for a kind whose table is not shown.
     names: Vec<String>,
     count: usize,
-    /// How many peaks each element has.
+    /// Number of peaks of each element.
     each: usize,
-    /// Whether the summary tells of the kind.
+    /// Whether the summary shows the kind.
     is_shown: bool,
     table: fn(&[String], &[Peak]) -> Table,
 }
@@ -30,12 +30,12 @@ impl Elements {
         Elements(begin.1)
     }
 
-    /// How many peaks all of them have.
+    /// Number of peaks of all elements.
     pub(super) fn count(&self) -> usize {
         self.0.iter().map(|kind| kind.count * kind.each).sum()
     }
 
-    /// Those of `peaks`, of all of them, that are of a kind, by element.
+    /// Peaks of one kind among those of all, by element.
     pub(super) fn of<'p>(&self, kind: &str, peaks: &'p [Peak]) -> impl Iterator<Item = &'p [Peak]> + use<'p> {
         let before = self.0.iter().take_while(|own| own.of != kind).map(|own| own.count * own.each).sum();
         let own = self.0.iter().find(|own| own.of == kind);
@@ -43,7 +43,7 @@ impl Elements {
         peaks.get(before..before + count).unwrap_or_default().chunks(each)
     }
 
-    /// Tables of `peaks`, of all of them.
+    /// Tables of `peaks` of all elements.
     pub(super) fn tables(&self, peaks: &[Peak]) -> Tables {
         let mut rest = peaks;
         let mut tables = Tables::new();
@@ -80,7 +80,7 @@ fn table<E: Reported>(names: &[String], peaks: &[Peak]) -> Table {
     Table::new(E::NAMES[0], &columns, names.iter().zip(peaks.chunks(E::PEAKS.len())).map(row))
 }
 
-/// A peak and, where there is a column for it, its time.
+/// Cell of a peak and, if there is a column for it, of its time.
 fn cells(tracked: &Tracked, peak: &Peak) -> impl Iterator<Item = Cell> + use<> {
     let value = if tracked.at_least_zero { peak.value.max(0.0) } else { peak.value };
     let time_s = (peak.value > 0.0).then_some(peak.time_s);

@@ -9,13 +9,13 @@ use crate::forces::{Actions, Listed, Visitor, visit_kinds};
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// More are counted only.
+/// Largest number of listed events; more are counted only.
 const MOST: usize = 100;
 
-/// What happened to a force element.
+/// Event of a force element.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Event {
-    /// When, s: the end of the step in which it happens; of what is seen at outputs alone, the first output behind it.
+    /// End of the step in which it occurs, s; for events seen at outputs only, the first output after it.
     pub time_s: f64,
     /// Name of the element.
     pub name: String,
@@ -23,20 +23,20 @@ pub struct Event {
     pub what: Cow<'static, str>,
 }
 
-/// The events seen so far, of the kinds that tell theirs. Allocates at the start of a run only.
+/// Events so far, of the kinds that report them. Allocates at the start of a run only.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Events {
-    /// Of the output before.
+    /// Actions at the output before.
     before: Option<Actions<f64>>,
     /// Of each that has events a name, and what follows the words.
     names: Vec<[String; 2]>,
     seen: Seen,
 }
 
-/// The first events, and how many more there were.
+/// First events, and the number of further ones.
 #[derive(Clone, Debug, Default)]
 struct Seen {
-    /// Time, place among the names, words.
+    /// Time, index of the name, text.
     first: Vec<(f64, usize, &'static str)>,
     more: u64,
 }
@@ -56,7 +56,7 @@ impl Seen {
 }
 
 impl Events {
-    /// None seen yet.
+    /// No events yet.
     pub(super) fn new(model: &Model) -> Self {
         let mut names = Names(model, Vec::new());
         visit_kinds(&mut names);
@@ -70,12 +70,12 @@ impl Events {
         before.take_over(sample.actions);
     }
 
-    /// How many there were beyond those of the list.
+    /// Number of events beyond the list.
     pub(super) fn more(&self) -> u64 {
         self.seen.more
     }
 
-    /// The first, in the order in which they happened.
+    /// First events, in order of time.
     pub(super) fn list(&self) -> Vec<Event> {
         let event = |(time_s, i, what): &(f64, usize, &'static str)| {
             let [name, rest] = &self.names[*i];
@@ -101,7 +101,7 @@ impl Visitor for Names<'_> {
 struct See<'s, 'a> {
     sample: &'s Sample<'a>,
     before: &'s Actions<f64>,
-    /// Place of the kind's first name.
+    /// Index of the kind's first name.
     first: usize,
     seen: &'s mut Seen,
 }

@@ -4,20 +4,20 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::Peak;
 
-/// Largest displacements of the centre of the head sphere from its place at the start, vehicle axes, m; never negative.
+/// Largest displacements of the centre of the head sphere since the start, vehicle axes, m; at least 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excursion {
-    /// Along X_v.
+    /// Forward, +X_v.
     pub forward: Peak,
-    /// Against X_v.
+    /// Rearward, −X_v.
     pub rearward: Peak,
-    /// Against Y_v.
+    /// To the left, −Y_v.
     pub left: Peak,
-    /// Along Y_v.
+    /// To the right, +Y_v.
     pub right: Peak,
-    /// Against Z_v.
+    /// Upward, −Z_v.
     pub up: Peak,
-    /// Along Z_v.
+    /// Downward, +Z_v.
     pub down: Peak,
 }
 

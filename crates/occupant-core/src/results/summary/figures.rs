@@ -10,28 +10,28 @@ use super::{Acceleration, Excursion, FirstContact, Level, Person, Summary, Throw
 use crate::forces::table::{Cell, Table};
 use crate::model::Model;
 
-/// One measure of a run.
+/// One result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Dotted name without blanks, e.g. `head.peak`. Characters of an element's or sphere's name that are neither letters,
-    /// digits, `_` nor `-` stand as `_`.
+    /// Dotted name without blanks, e.g. `head.peak`. In names of elements and spheres, characters other than letters,
+    /// digits, `_` and `-` become `_`.
     pub name: String,
-    /// Unit, `1` for a plain number.
+    /// Unit; `1` for a dimensionless number.
     pub unit: &'static str,
-    /// The value; absent where the run has none, such as the time of a contact that never came.
+    /// Value; none if the run has none, such as the time of a contact that did not occur.
     pub value: Option<f64>,
 }
 
 impl Figure {
-    /// True of what tells of the work of a run and how far it came, not of the motion.
+    /// Whether it describes the computation and the end of the run, not the motion.
     pub fn is_of_work(&self) -> bool {
         self.name.starts_with("solver.") || self.name.starts_with("run.")
     }
 }
 
 impl Summary {
-    /// Every measure of this summary of a run of `model`. The names and their order depend only on which force elements
-    /// and spheres the model has, so that they are the same for all runs of a study.
+    /// Every result of this summary of a run of `model`. Names and their order depend only on the force elements and
+    /// spheres of the model, so they are the same for all runs of a study.
     pub fn figures(&self, model: &Model) -> Vec<Figure> {
         let mut list = List::default();
         let people = self.people();
@@ -86,7 +86,7 @@ impl Summary {
         }
     }
 
-    /// The largest force on every part of the body, zero where it touched nothing, and its first contact.
+    /// Largest force on every part of the body, 0 without contact, and its first contact.
     fn list_contacts(&self, list: &mut List, model: &Model) {
         for part in model.body().parts() {
             let name = format!("contacts.{}", word(part));
@@ -139,7 +139,7 @@ impl List {
         self.add(format!("{part}.three_ms_cumulative"), MetrePerSecondSquared, total);
     }
 
-    /// How a body was thrown, without numbers if it was not.
+    /// Throw of a body; results without values if it was not thrown.
     fn throw(&mut self, prefix: &str, throw: Option<&Throw>) {
         let launch = throw.and_then(|throw| throw.launch.as_ref());
         let landing = throw.and_then(|throw| throw.landing.as_ref());
@@ -175,7 +175,7 @@ impl List {
     }
 }
 
-/// A name of an element or sphere as one word of a dotted name.
+/// Name of an element or sphere as one word of a dotted name.
 pub fn word(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || c == '_' || c == '-' { c } else { '_' };
     name.chars().map(plain).collect()

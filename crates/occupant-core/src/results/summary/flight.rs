@@ -15,11 +15,11 @@ use crate::motion::frame::MOST_FRAMES;
 use crate::results::sample::Sample;
 use crate::vehicle::FrameMotion;
 
-/// A body that touches nothing for less than this is not airborne, s.
+/// Time without contact below which a body does not count as airborne, s.
 const AIRBORNE_S: f64 = 0.01;
-/// A vehicle with a greater acceleration has met more than its tyres can give, m/s²: 2 g.
+/// Acceleration beyond that of tyres, above which a vehicle counts as struck, m/s²: 2 g.
 const BLOW_M_S2: f64 = 2.0 * STANDARD_GRAVITY_M_S2;
-/// Of a path of straight lines, which has no accelerations, changes of velocity over this time are looked at, s.
+/// Time over which changes of velocity count, for a linearly interpolated path without accelerations, s.
 const WINDOW_S: f64 = 0.02;
 
 /// A body that may be thrown.
@@ -27,36 +27,36 @@ const WINDOW_S: f64 = 0.02;
 pub(super) struct Flight {
     of: usize,
     pub name: &'static str,
-    /// Frames that are at rest: space, the ground and what belongs to them.
+    /// Frames at rest: space, the ground and what they carry.
     still: Vec<usize>,
-    /// Frames of the vehicle that is its home; none of a body that stands, walks or lies on the ground.
+    /// Frames of its home vehicle; none for a body that stands, walks or lies on the ground.
     homes: Vec<usize>,
     gravity_m_s2: f64,
-    /// The blow, and the start of the present window in which it is looked for, with the velocity of the home.
+    /// The blow, and the start of the present search window, with the velocity of the home.
     blow: Option<Moment>,
     window: Option<(Moment, Vector3<f64>)>,
     highest_m: f64,
     airborne_s: Vec<[f64; 2]>,
-    /// Since when it touches nothing, and whether it left a carrier then.
+    /// Start of the present time without contact, and whether it left a carrier then.
     free: Option<(Moment, bool)>,
-    /// The last output at which a carrier touched it, and whether one did at the last output at which anything did.
+    /// Last output with a carrier in contact, and whether that was the last output with any contact.
     carried: Option<Moment>,
     was_carried: bool,
-    /// The longest flight from a carrier to the ground.
+    /// Longest flight from a carrier to the ground.
     flown: Option<(Moment, Touchdown)>,
-    /// The first contact of the ground, and its friction.
+    /// First contact with the ground, and its friction.
     grounded: Option<Moment>,
     friction: Option<f64>,
     now: Option<Moment>,
 }
 
-/// What touches a body at an output, itself and other bodies aside.
+/// Contacts of a body at an output, without those with itself and with other bodies.
 #[derive(Default)]
 struct Touched {
     carrier: bool,
-    /// When a vehicle that is not its home first touched it, if one does.
+    /// First contact of a vehicle other than its home, if any.
     striker_s: Option<f64>,
-    /// First touch of the ground, and its friction.
+    /// First contact with the ground, and its friction.
     ground: Option<(Touchdown, f64)>,
 }
 
@@ -126,7 +126,7 @@ impl Flight {
         }
     }
 
-    /// A time without touch is over.
+    /// Ends a time without contact.
     fn end_flight(&mut self, since: Moment, from_carrier: bool, now: Moment, touched: Touched) {
         let landing = touched.ground.filter(|_| !touched.carrier);
         let end_s = landing.as_ref().map_or(now.time_s, |(touchdown, _)| touchdown.at.time_s);
@@ -142,7 +142,7 @@ impl Flight {
         }
     }
 
-    /// Looks for the blow on the home.
+    /// Searches for the blow on the home vehicle.
     fn see_blow(&mut self, now: Moment, home: &FrameMotion) {
         let (window, velocity) = *self.window.get_or_insert((now, home.velocity_m_s));
         if self.blow.is_some() {
@@ -191,7 +191,7 @@ impl Flight {
         touched
     }
 
-    /// When a touch began: at a step since the output before if it is the first of its sphere and surface, else now.
+    /// Start of a contact: at a step since the output before if it is the first of its sphere and surface, else now.
     fn first_s(&self, sample: &Sample<'_>, touch: &Touch<f64>, now_s: f64) -> f64 {
         let surface = sample.model.system().forces.contacts.surface(touch.pair, touch.part as usize);
         let before_s = self.now.map_or(now_s, |before| before.time_s);
@@ -199,7 +199,7 @@ impl Flight {
         first.map_or(now_s, |first| first.time_s).clamp(before_s.min(now_s), now_s)
     }
 
-    /// What came of it; none of a body that nothing struck, or that is still with its vehicle.
+    /// Resulting throw; none for a body that was not struck, or that is still with its vehicle.
     pub(super) fn throw(&self, spheres: &[ContactSphere]) -> Option<Throw> {
         let end = self.now?;
         let is_carried = self.carried.is_some_and(|carried| carried.time_s == end.time_s);

@@ -44,15 +44,15 @@ pub struct Summary {
     pub title: String,
     /// How the run ended.
     pub status: RunStatus,
-    /// Why, where it did not complete.
+    /// Reason, if it did not complete.
     pub reason: Option<String>,
-    /// Start of the run.
+    /// Start of the run, s.
     pub start_s: f64,
-    /// Time reached.
+    /// Time reached, s.
     pub reached_s: f64,
-    /// Time it should have reached.
+    /// Planned end, s.
     pub end_s: f64,
-    /// Name of the occupant that accelerations, head excursion and measures are of; empty of one alone.
+    /// Name of the occupant of accelerations, head excursion and measures; empty for a single occupant.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub occupant: &'static str,
     /// Accelerometer readings at the centres of gravity.
@@ -60,32 +60,32 @@ pub struct Summary {
     /// Peaks of force elements.
     #[serde(flatten)]
     pub elements: Tables,
-    /// What happened to belts over several nodes: the first hundred events.
+    /// Events of belts over several nodes: the first hundred.
     pub events: Vec<Event>,
-    /// How many more there were.
+    /// Number of further events.
     pub more_events: u64,
     /// First contacts of the parts of the body after the start.
     pub first_contacts: Vec<FirstContact>,
     /// Every first contact of a part of the body with a surface, in the order in which they happened.
     pub contacts: Vec<ContactBegin>,
-    /// Largest contact force on each part of the body that touched anything, in the body's order.
+    /// Largest contact force on each part of the body with contact, in the body's order.
     pub sphere_forces: Vec<SpherePeak>,
-    /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
+    /// Displacement of the head's centre since the start; none without a sphere `head`.
     pub head_excursion: Option<Excursion>,
-    /// Whose limits and risks they are judged by.
+    /// Dummy of the limits and risks.
     pub dummy: &'static str,
-    /// Injury measures, unless asked otherwise by the Hybrid III nearest in mass and unfiltered.
+    /// Injury measures, by default with the Hybrid III nearest in mass and unfiltered.
     pub measures: Vec<Measure>,
     /// The same of the other occupants, by their names.
     #[serde(skip_serializing_if = "InOrder::is_empty")]
     pub others: InOrder<&'static str, Person>,
-    /// How bodies that were struck were thrown, by their names, where there are other frames than one vehicle's and space.
+    /// Throws of struck bodies, by their names, in models with other frames than one vehicle's and space.
     #[serde(skip_serializing_if = "InOrder::is_empty")]
     pub throws: InOrder<&'static str, Throw>,
-    /// What left the compartment of its vehicle, by the names of the bodies whose head, chest or pelvis did.
+    /// Ejections from a vehicle, by the names of the bodies whose head, chest or pelvis left it.
     #[serde(skip_serializing_if = "InOrder::is_empty")]
     pub ejections: InOrder<&'static str, Ejection>,
-    /// Which figures are not to be quoted as they stand, and why.
+    /// Reasons why results should not be quoted as they are.
     pub caveats: Vec<Caveat>,
     /// Energy balance.
     pub energy: EnergyCheck,
@@ -94,7 +94,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// The same of a run that ended in this way: all figures of one that did not complete are those up to where it got.
+    /// The same summary of a run that ended in this way: results of an incomplete run count up to its end.
     pub fn ended(mut self, status: RunStatus, reason: Option<String>) -> Self {
         self.caveats.splice(..0, Caveat::of_ending(status, self.reached_s));
         Summary { status, reason, ..self }
@@ -102,20 +102,20 @@ impl Summary {
 }
 
 impl Summary {
-    /// The same of a file that holds only a part of a run, which `text` tells: no figure is one of the run.
+    /// The same summary of a file with a part of a run, described by `text`: no result is of the whole run.
     pub fn of_part(mut self, text: String) -> Self {
         self.caveats.insert(0, Caveat::of_part(text));
         self
     }
 
-    /// The same of a file that resumes a run at `from_s`.
+    /// The same summary of a file that resumes a run at `from_s`.
     pub fn of_rest(mut self, from_s: f64) -> Self {
         self.caveats.insert(0, Caveat::of_rest(from_s, &self));
         self
     }
 }
 
-/// What the instruments of one of several occupants say.
+/// Results of one of several occupants.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Person {
     /// As [`Summary::accelerations`].
@@ -129,7 +129,7 @@ pub struct Person {
 }
 
 impl Person {
-    /// Names of the figures that are of a time, or of a window that begins at one, for which `is_when` holds.
+    /// Names of the results that are times for which `is_when` holds, or that belong to a window with such a start.
     fn figures_when(&self, is_when: impl Fn(f64) -> bool) -> Vec<String> {
         let a = &self.accelerations;
         let parts = [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)].into_iter();
@@ -150,7 +150,7 @@ impl Person {
 }
 
 impl Summary {
-    /// All occupants by what stands before the names of their figures: nothing of one alone, else the name and a dot.
+    /// All occupants by the prefix of their results: empty for a single one, else the name and a dot.
     pub fn people(&self) -> Vec<(String, Person)> {
         let first = Person {
             accelerations: self.accelerations,
@@ -164,19 +164,19 @@ impl Summary {
     }
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RunStatus {
     /// At its end time.
     Completed,
-    /// It was interrupted.
+    /// Interrupted.
     Interrupted,
     /// The integration failed.
     Failed,
 }
 
-/// Resultant accelerometer readings (acceleration minus gravity) of the three parts that limits speak of.
+/// Resultant accelerometer readings (acceleration minus gravity) of the three parts that have limits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Accelerations {
     /// Segment 3.
@@ -194,20 +194,20 @@ pub struct Acceleration {
     pub peak_m_s2: f64,
     /// Peak in g.
     pub peak_g: f64,
-    /// Its time.
+    /// Time of the peak.
     pub peak_time_s: f64,
-    /// Level held for 3 ms without interruption; absent where the run is shorter.
+    /// Level held for 3 ms without interruption; none in a shorter run.
     pub three_ms_contiguous: Option<Level>,
     /// Level exceeded for 3 ms in total.
     pub three_ms_cumulative: Option<Level>,
 }
 
-/// A level that was held for a time.
+/// A level held for a time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Level {
     /// The level.
     pub level_m_s2: f64,
-    /// The level in g.
+    /// Level in g.
     pub level_g: f64,
     /// Start of the interval above it, the first of them where the time is cumulative.
     pub from_s: f64,
@@ -215,58 +215,59 @@ pub struct Level {
     pub to_s: f64,
 }
 
-/// The first contact of a part of the body after the start of the run.
+/// First contact of a part of the body after the start of the run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FirstContact {
-    /// Name of the part; without a full set of spheres that of its one sphere.
+    /// Name of the part; without a full set of spheres, that of its one sphere.
     pub sphere: String,
-    /// What it touched; absent if it touched nothing new.
+    /// The contact; none without any new contact.
     pub contact: Option<ContactBegin>,
 }
 
-/// The first contact of a part of the body with a surface.
+/// First contact of a part of the body with a surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactBegin {
     /// Name of the part of the body.
     pub part: String,
-    /// Name of the sphere of it.
+    /// Name of its sphere.
     pub sphere: String,
     /// Name of the surface.
     pub surface: String,
-    /// Time; the start of the run for what touches at the start.
+    /// Time, s; the start of the run for contacts at the start.
     pub time_s: f64,
-    /// Speed of the sphere's centre relative to the surface; not a number in files of version 0.1.0.
+    /// Speed of the sphere's centre relative to the surface, m/s; NaN in files of version 0.1.0.
     pub speed_m_s: f64,
-    /// The part of it towards the surface.
+    /// Its component towards the surface, m/s.
     pub closing_m_s: f64,
-    /// True for what touches at the start.
+    /// Whether the contact exists at the start.
     pub at_start: bool,
 }
 
-/// The largest contact force on a part of the body: normal, edge and friction forces of all surfaces on all its spheres
-/// together, as vectors; other elements apart.
+/// Largest contact force on a part of the body: vector sum of normal, edge and friction forces of all surfaces on all
+/// its spheres, without other elements.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpherePeak {
-    /// Name of the part; without a full set of spheres that of its one sphere.
+    /// Name of the part; without a full set of spheres, that of its one sphere.
     pub sphere: String,
     /// Largest force.
     pub force_n: f64,
-    /// Its time.
+    /// Its time, s.
     pub time_s: f64,
-    /// The surface with the largest normal force then.
+    /// Surface with the largest normal force at that time.
     pub surface: String,
-    /// Largest contact penetration Δ, whenever it occurred. No deflection of the body: that is rigid.
+    /// Largest contact penetration Δ at any time, m. Not a deflection of the body, which is rigid.
     pub penetration_m: f64,
-    /// Its time.
+    /// Its time, s.
     pub penetration_time_s: f64,
-    /// Largest penetration of a solid as a fraction of its thickness there; 0 where no solid with an end was touched.
+    /// Largest penetration of a solid as a fraction of its thickness there; 0 without contact of a solid of finite
+    /// thickness.
     pub thickness_used: f64,
 }
 
 /// Work of the integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Solver {
-    /// Which one.
+    /// Name of the integrator.
     pub integrator: &'static str,
     /// Accepted steps.
     pub steps: u64,
@@ -276,7 +277,7 @@ pub struct Solver {
     pub evaluations: u64,
     /// Outputs recorded.
     pub outputs: usize,
-    /// Time taken, given from outside; absent where nobody measured it.
+    /// Run time, given by the caller, s; none if not measured.
     pub wall_time_s: Option<f64>,
 }
 

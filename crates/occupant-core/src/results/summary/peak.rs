@@ -1,6 +1,6 @@
 //! The maximum so far and its time.
 
-/// The maximum so far and its time; the first of equals.
+/// Maximum so far and its time; the first of equal values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Largest value; minus infinity before the first.
@@ -10,10 +10,10 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// Nothing seen yet.
+    /// No value yet.
     pub(crate) const NONE: Peak = Peak { value: f64::NEG_INFINITY, time_s: f64::NAN };
 
-    /// Looks at a value; true if it is the largest so far.
+    /// Takes a value; true if it is the largest so far.
     pub(crate) fn see(&mut self, value: f64, time_s: f64) -> bool {
         let greater = value > self.value;
         if greater {

@@ -11,18 +11,18 @@ use crash_measures::measure::{Peak as Extreme, ThreeMs};
 /// Readings of the instruments of one body in a run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watched {
-    /// Its place among the bodies.
+    /// Index of the body.
     of: usize,
     pub(super) name: &'static str,
     pub(super) mass_kg: f64,
     has_head: bool,
-    /// Whether it has a head, a chest and a pelvis that no mount moves as it is told: else their readings are an input.
+    /// Whether it has a head, a chest and a pelvis that are not mounted: else their readings are an input.
     has: [bool; 3],
     pub(super) signals: Signals,
 }
 
 impl Watched {
-    /// The bodies of a model that have anything to tell, those that [`Fine`] reads; at least the first.
+    /// Bodies of a model with results, those that [`Fine`] reads; at least the first.
     pub(super) fn all(model: &Model, fine: &Fine) -> Vec<Watched> {
         let (body, rows) = (model.body(), model.body().tree.bodies());
         let watched = |&of: &usize| {
@@ -42,7 +42,7 @@ impl Watched {
         fine.bodies.iter().map(watched).collect()
     }
 
-    /// Takes over readings: those of the body that is number `place` of all that are watched.
+    /// Takes the readings of the body with the index `place` among those that are read.
     pub(super) fn take(&mut self, place: usize, fine: &Fine) {
         if self.signals.is_empty() {
             (self.signals.start_s, self.signals.interval_s) = (fine.first_s(), fine.interval_s);
@@ -61,7 +61,7 @@ impl Watched {
         }
     }
 
-    /// What came of it; `fine` holds what is still to be taken, `are_of_steps`: whether peaks are those of steps.
+    /// Results; `fine` contains the readings not yet taken, `are_of_steps`: whether peaks are those of steps.
     pub(super) fn person(
         &self,
         place: usize,
@@ -110,10 +110,10 @@ impl Watched {
     }
 }
 
-/// Samples for which there is room from the start, 100 s at 10 kHz; a longer run takes more as it goes.
+/// Samples with space reserved at the start, 100 s at 10 kHz.
 const MOST_ROOM: usize = 1_000_000;
 
-/// Deflections of a chest in the order of a sample, and what a blow from behind adds.
+/// Deflections of a chest in the order of a sample, and the signals for rear impact.
 const CHEST: [Special; 5] = [
     Special::ChestDeflection,
     Special::ChestPoint(ChestPoint::ALL[0]),

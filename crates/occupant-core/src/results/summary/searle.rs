@@ -12,40 +12,40 @@
 
 use serde::Serialize;
 
-/// The bounds of a throw.
+/// Searle's bounds of a throw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Searle {
-    /// μ: the coefficient of friction where the body touched the ground.
+    /// μ: coefficient of friction of the body's ground contact.
     pub friction: f64,
-    /// H: fall of the centre of gravity from the launch to rest, m.
+    /// H: fall of the centre of gravity from launch to rest, m.
     pub fall_m: f64,
-    /// Least and largest speed that the throw distance gives back, m/s.
+    /// Least and greatest speed for the throw distance, m/s.
     pub speeds_m_s: [f64; 2],
-    /// Least and largest distance from the launch to rest that the speed of the launch allows, m.
+    /// Least and greatest distance from launch to rest for the launch speed, m.
     pub distances_m: [f64; 2],
-    /// The μ with which the formula gives the distance from the launch to rest: less than that of the ground where a body rolls;
-    /// none if no μ does.
+    /// μ with which the formula gives the distance from launch to rest: less than that of the ground for a rolling
+    /// body; none if no μ does.
     pub drag_factor: Option<f64>,
 }
 
-/// How a body went from its launch to rest.
+/// Throw of a body from launch to rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
     /// μ of the ground.
     pub friction: f64,
     pub gravity_m_s2: f64,
     pub fall_m: f64,
-    /// Throw distance: from the blow to rest.
+    /// Throw distance, from the blow to rest, m.
     pub distance_m: f64,
-    /// From the launch to rest.
+    /// Distance from launch to rest, m.
     pub from_launch_m: f64,
-    /// Speed of the launch, and its angle above the horizontal, rad.
+    /// Launch speed, m/s, and its angle above the horizontal, rad.
     pub speed_m_s: f64,
     pub angle_rad: f64,
 }
 
 impl Searle {
-    /// The bounds where friction is not 0.
+    /// Bounds, for friction above 0.
     pub(super) fn new(way: &Way) -> Self {
         let Way { friction, gravity_m_s2, fall_m, distance_m, speed_m_s, .. } = *way;
         let best = 1.0 + friction * friction;
@@ -84,8 +84,9 @@ mod tests {
 
     const G: f64 = 9.80665;
 
-    /// Distance of a point that is launched, falls by `fall_m`, and then bounces `bounces` times, each with half the vertical speed,
-    /// losing μ times the vertical impulse of its horizontal speed at each touch, and slides to rest; none if it stops in a bounce.
+    /// Distance of a point that is launched, falls by `fall_m`, bounces `bounces` times with half the vertical speed
+    /// each, loses μ times the vertical impulse of its horizontal speed at each contact, and slides to rest; none if it
+    /// stops in a bounce.
     fn gone_m(friction: f64, fall_m: f64, speed_m_s: f64, angle: f64, bounces: usize) -> Option<f64> {
         let [mut along, mut up] = [speed_m_s * angle.cos(), speed_m_s * angle.sin()];
         let (mut height_m, mut x) = (fall_m, 0.0);
@@ -102,7 +103,7 @@ mod tests {
         Some(x + along * along / (2.0 * friction * G))
     }
 
-    /// At 12 m/s.
+    /// Throw at 12 m/s.
     fn thrown(friction: f64, fall_m: f64, s: f64) -> Way {
         let (distance_m, from_launch_m, speed_m_s) = (s, s, 12.0);
         Way { friction, gravity_m_s2: G, fall_m, distance_m, from_launch_m, speed_m_s, angle_rad: 0.0 }

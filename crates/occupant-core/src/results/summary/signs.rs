@@ -18,60 +18,64 @@ use crate::motion::vector::V3;
 use crate::results::peaks::Peaks;
 use crate::results::sample::{Contact, Sample};
 
-/// Spheres that overlap by less have grazed an edge, m; limbs whose spheres are nearer have not gone between them.
+/// Overlap below which a sphere has only grazed an edge, and distance of spheres below which a limb has not passed
+/// between them, m.
 const GRAZE_M: f64 = 0.01;
 
-/// Spheres and limbs are looked at so often, s: what passed a surface stays behind it for longer, and runs of sweeps wait for it.
+/// Interval between checks of spheres and limbs, s: a passed surface stays passed for longer, and checks delay runs
+/// side by side.
 const LOOK_S: f64 = 1.99e-3;
 
-/// Joints a little beyond the end of a stop are at it, rad: 10°.
+/// Angle beyond the end of a stop that still counts as at the stop, rad: 10°.
 const AT_STOP_RAD: f64 = 0.175;
-/// Deeper into a solid than this part of its thickness it is used up.
+/// Penetration of a solid, as a fraction of its thickness, above which it bottoms out.
 const BOTTOM: f64 = 0.8;
-/// Elastic limits give way by less, rad: 30°.
+/// Largest excess beyond an elastic limit, rad: 30°.
 const MOST_EXCESS_RAD: f64 = 0.524;
-/// What a seat's cushion gives way at most, m. Anything else gives way by the diameter of what presses on it.
+/// Largest deformation of a seat cushion, m. Other objects deform by at most the diameter of the sphere.
 const CUSHION_M: f64 = 0.15;
 
-/// The signs seen so far. Allocates at the start of a run only.
+/// Findings so far. Allocates at the start of a run only.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Signs {
     /// By joint.
     joints: Vec<Turned>,
-    /// By joint that can move: its place among all, and its stops, of a hinge the upper and the lower one.
+    /// By movable joint: its index among all, and its stops (of a hinge, upper and lower).
     stops: Vec<(usize, [Option<Stop>; 2])>,
-    /// By joint with elastic limits: its place among all, and how far it gives way at most, rad.
+    /// By joint with elastic limits: its index among all, and the largest excess, rad.
     limits: Vec<(usize, f64)>,
-    /// By sphere: overlap without force, depth, and the surfaces where.
+    /// By sphere: overlap without force, penetration, and the surfaces.
     passed: Vec<Sunk>,
     deep: Vec<Sunk>,
-    /// By sphere: depth at which a solid is used up, and how thick that is, m.
+    /// By sphere: penetration at which a solid bottoms out, and its thickness, m.
     bottomed: Vec<(Sunk, f64)>,
-    /// By sphere: depth in a bar or rim whose axis its centre went through.
+    /// By sphere: penetration of a bar or rim whose axis its centre crossed.
     through: Vec<Sunk>,
-    /// By sphere: depth beyond the last point of a force function, and that point, m.
+    /// By sphere: penetration beyond the last point of a force function, and that point, m.
     beyond: Vec<(Sunk, f64)>,
-    /// By strap: strain beyond the last point of its webbing; by belt over several nodes: way of its limiter beyond its own, m.
+    /// By strap: strain beyond the last point of its webbing; by belt over several nodes: payout of its limiter beyond
+    /// its curve, m.
     stretched: Vec<Peak>,
     run_out: Vec<Peak>,
-    /// By strap: when it came off the wing of the pelvis where it begins, s, and what is on which side: 1 left, 2 right.
+    /// By strap: time at which it left the wing of the pelvis where it begins, s, and the side (1: left, 2: right).
     slipped: Vec<Option<(f64, f64)>>,
-    /// By belt over several nodes: when it first was off the shoulder under load, and when beside the neck, s.
+    /// By belt over several nodes: first time off the shoulder under load, and first time beside the neck, s.
     shoulders: Vec<[Option<f64>; 2]>,
-    /// By bag and by its spheres: when it fired with the sphere in its way, and when the sphere pressed it in as far as its mount, s.
+    /// By bag and by its spheres: time of firing with the sphere in its way, and time at which the sphere compressed it
+    /// to its mount, s.
     bags: Vec<Vec<[Option<f64>; 2]>>,
-    /// By bag and by its spheres: when the sphere first touched what stands behind the bag, s, and what that was.
+    /// By bag and by its spheres: first contact of the sphere with a part behind the bag, s, and that part.
     behind: Vec<Vec<Option<(f64, usize)>>>,
     strokes: Strokes,
     slides: Slides,
-    /// By segment: how far from its spheres it went through a surface.
+    /// By segment: distance from its spheres at which it passed through a surface.
     cuts: Vec<Sunk>,
-    /// By pair: whether it had passed at the start, whether the sphere's limb went through it.
+    /// By pair: whether it had passed at the start, and whether the sphere's limb passed through it.
     begun: Vec<[bool; 2]>,
     is_begun: bool,
-    /// When spheres and limbs were looked at last, s.
+    /// Time of the last check of spheres and limbs, s.
     seen_s: f64,
-    /// The surface that the body was seated on.
+    /// Surface on which the body was seated.
     cushion: Option<usize>,
 }
 
@@ -90,7 +94,7 @@ impl Sunk {
         }
     }
 
-    /// The same of the first surface alone where it is more than a graze.
+    /// The same for the first surface, if it is more than a graze.
     fn see_first(&mut self, length_m: f64, surface: usize, time_s: f64) {
         if self.most.value < GRAZE_M || surface == self.surface {
             self.see(length_m, surface, time_s);
@@ -164,7 +168,7 @@ impl Signs {
         }
     }
 
-    /// Joints of a run whose steps nobody has looked at.
+    /// Joints of a run whose steps were not recorded.
     fn see_joints(&mut self, sample: &Sample<'_>) {
         let (model, time_s) = (sample.model, sample.time_s);
         for (turned, joint) in self.joints.iter_mut().zip(model.body().tree.joints()) {
@@ -195,7 +199,7 @@ impl Signs {
         signs
     }
 
-    /// A sphere in a solid.
+    /// Checks a sphere in a solid.
     fn see_solid(&mut self, sample: &Sample<'_>, contact: &Contact) {
         let thickness_m = contact.thickness_m;
         let radius_m = sample.model.body().spheres[contact.sphere].radius_m;
@@ -206,7 +210,7 @@ impl Signs {
         }
     }
 
-    /// A sphere deeper than the last point of the force function that it follows.
+    /// Checks a sphere against the last point of its force function.
     fn see_last_point(&mut self, sample: &Sample<'_>, touch: &Touch<f64>) {
         let contacts = &sample.model.system().forces.contacts;
         let last_m = contacts.last_point_m(touch);
@@ -216,7 +220,7 @@ impl Signs {
         }
     }
 
-    /// Webbing and limiters beyond the last points of their curves.
+    /// Checks webbing and limiters against the last points of their curves.
     fn see_chains(&mut self, sample: &Sample<'_>) {
         let chains = &sample.model.setup().chains;
         let ends = chains.iter().flat_map(|chain| chain.straps.iter().map(|_| chain.webbing.end()));
@@ -236,7 +240,7 @@ impl Signs {
         }
     }
 
-    /// Belts under load that are off the shoulder, or beside the neck.
+    /// Checks loaded belts for positions off the shoulder or beside the neck.
     fn see_shoulders(&mut self, sample: &Sample<'_>) {
         let (laws, mut first) = (&sample.model.system().forces.chains, 0);
         for ((law, past), seen) in laws.iter().zip(&sample.history.memory.chains).zip(&mut self.shoulders) {
@@ -251,7 +255,7 @@ impl Signs {
         }
     }
 
-    /// Spheres in the way of a bag that fires, and those that press one in as far as its mount.
+    /// Checks for spheres in the way of a bag that fires, and for those that compress one to its mount.
     fn see_bags(&mut self, sample: &Sample<'_>) {
         let is = |flags: f64, i: usize| flags as u32 >> i & 1 == 1;
         let of_bags = sample.model.setup().bags.iter().zip(&sample.actions.bags);
@@ -272,7 +276,7 @@ impl Signs {
         }
     }
 
-    /// A sphere among the faces of a frame.
+    /// Checks a sphere against the faces of a frame.
     fn see_group(&mut self, sample: &Sample<'_>, group: &Group) {
         let contacts = &sample.model.system().forces.contacts;
         let sphere = &sample.model.body().spheres[group.sphere];
@@ -303,7 +307,7 @@ impl Signs {
         }
     }
 
-    /// What to know of the figures.
+    /// Resulting caveats.
     pub(super) fn caveats(&self, body: &Body, surfaces: &[String], chains: &[Chain], bags: &[Bag]) -> Vec<Caveat> {
         let name = |sunk: &Sunk| surfaces[sunk.surface].as_str();
         let joints = body.tree.joints().zip(&self.joints).filter(|(_, turned)| turned.beyond.value > AT_STOP_RAD);
@@ -339,7 +343,7 @@ impl Signs {
             .collect()
     }
 
-    /// What to know of belts over several nodes.
+    /// Caveats of belts over several nodes.
     fn of_chains<'s>(&'s self, body: &'s Body, chains: &'s [Chain]) -> impl Iterator<Item = Caveat> + use<'s> {
         let belts = chains.iter().flat_map(|chain| chain.straps.iter().map(move |_| chain));
         let slipped = belts.zip(&self.slipped).filter_map(|(chain, seen)| Some((chain, (*seen)?)));
@@ -359,7 +363,7 @@ impl Signs {
 }
 
 impl Signs {
-    /// What to know of bags.
+    /// Caveats of bags.
     fn of_bags(&self, body: &Body, surfaces: &[String], bags: &[Bag]) -> impl Iterator<Item = Caveat> {
         let all = bags.iter().zip(&self.bags).zip(&self.behind).flat_map(|((bag, seen), behind)| {
             seen.iter()
@@ -379,18 +383,18 @@ impl Signs {
     }
 }
 
-/// Cosine of the angle within which a bag and what a sphere touches push it the same way: about 80°. A head that slides over the top of
-/// a bag on to the rim behind it has 0.42.
+/// Cosine of the largest angle, about 80°, between the forces of a bag and of a part that the sphere touches through
+/// the bag. A head that slides over the top of a bag on to the rim behind it has 0.42.
 const SAME_WAY: f64 = 0.2;
 
-/// Whether what a sphere touches stands behind the bag that pushes it: both push the same way.
+/// Whether the part that a sphere touches is behind the bag: both forces have the same direction.
 fn is_behind(push: &V3<f64>, touch: &Contact) -> bool {
     let normal_n = touch.force_n - touch.friction_n - touch.edge_n;
     let push_n = push.to_vector();
     normal_n.norm() > 0.0 && push_n.dot(&normal_n) > SAME_WAY * push_n.norm() * normal_n.norm()
 }
 
-/// Of each part of the body the sphere that sank deepest.
+/// Of each part of the body, the sphere with the largest penetration.
 fn worst_of_parts<'s>(body: &Body, list: impl Iterator<Item = (usize, &'s Sunk)>) -> Vec<(usize, &'s Sunk)> {
     let mut worst: Vec<(usize, &Sunk)> = Vec::new();
     for one in list {
@@ -403,7 +407,7 @@ fn worst_of_parts<'s>(body: &Body, list: impl Iterator<Item = (usize, &'s Sunk)>
     worst
 }
 
-/// By joint with elastic limits: its place among all, and how far it gives way at most, rad.
+/// By joint with elastic limits: its index among all, and the largest excess, rad.
 fn limits(model: &Model) -> Vec<(usize, f64)> {
     let laws = model.system().forces.limits.iter();
     laws.map(|law| (law.joint().index(), MOST_EXCESS_RAD.min(law.last_point_rad()))).collect()
@@ -416,14 +420,14 @@ impl Turned {
         }
     }
 
-    /// The joint beyond the end of a stop.
+    /// Checks a joint against the end of a stop.
     fn see_stop(&mut self, stop: Option<&Stop>, beyond: Peak) {
         let Some(stop) = stop.filter(|_| self.beyond.see(beyond.value, beyond.time_s)) else { return };
         let angle_rad = stop.full_rad + sense(stop) * beyond.value;
         (self.angle_rad, self.stop_rad, self.is_elastic) = (angle_rad, stop.full_rad, false);
     }
 
-    /// An angle beyond an elastic limit, of which `most_rad` is the most that it gives way or the last that is known.
+    /// Checks an angle beyond an elastic limit, of which `most_rad` is the largest possible or the last known.
     fn see_limit(&mut self, excess_rad: f64, most_rad: f64, time_s: f64) {
         if self.beyond.see(excess_rad - (most_rad - AT_STOP_RAD), time_s) {
             (self.angle_rad, self.stop_rad, self.is_elastic) = (excess_rad, most_rad, true);
@@ -431,7 +435,7 @@ impl Turned {
     }
 }
 
-/// The stops of a joint, of a hinge the upper and the lower one.
+/// Stops of a joint (of a hinge, upper and lower).
 fn stops(law: &JointLaw) -> [Option<Stop>; 2] {
     match law {
         JointLaw::Ball(ball) => [ball.stop, None],
@@ -439,12 +443,12 @@ fn stops(law: &JointLaw) -> [Option<Stop>; 2] {
     }
 }
 
-/// 1 of a stop that is met by rising angles, −1 of a lower one.
+/// 1 for a stop reached by rising angles, −1 for a lower stop.
 fn sense(stop: &Stop) -> f64 {
     (stop.full_rad - stop.begin_rad).signum()
 }
 
-/// Both ends of an arm's or a leg's segment, space axes, m; none of the trunk's and the head's.
+/// Both ends of a segment of an arm or a leg, space axes, m; none for trunk and head.
 fn limb(sample: &Sample<'_>, segment: Segment) -> Option<[V3<f64>; 2]> {
     let (body, k, n) = (sample.model.body(), &sample.evaluation.kinematics, segment.index());
     let far = k.joint[n] + k.axes[n].z * body.far_m(segment);
@@ -461,7 +465,7 @@ fn centre(sample: &Sample<'_>, frame: usize, sphere: usize) -> V3<f64> {
     into_frame(sample, frame, sample.model.system().sphere(&sample.evaluation.kinematics, sphere).1)
 }
 
-/// How far a sphere about `centre` overlaps the nearest part of pair `i`, m, and the part's surface.
+/// Overlap of a sphere about `centre` with the nearest part of pair `i`, m, and the part's surface.
 fn overlap(contacts: &ContactSystem<f64>, i: usize, centre: V3<f64>, radius_m: f64) -> (f64, usize) {
     let behind_m = contacts.planes[i].depth(centre) - radius_m;
     let pair = &contacts.pairs[i];
@@ -469,7 +473,7 @@ fn overlap(contacts: &ContactSystem<f64>, i: usize, centre: V3<f64>, radius_m: f
     parts.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, 0))
 }
 
-/// Where a line goes through a part of pair `i` of a sphere.
+/// Intersection of a line with a part of pair `i` of a sphere.
 fn crossing(
     contacts: &ContactSystem<f64>,
     i: usize,
@@ -486,7 +490,7 @@ fn crossing(
     (contacts.pairs[i].beside(part, place) == 0.0).then_some(place)
 }
 
-/// Distance of a place from the nearest sphere of the body, m.
+/// Distance of a point from the nearest sphere of the body, m.
 fn clear_m(sample: &Sample<'_>, frame: usize, place: V3<f64>) -> f64 {
     let spheres = sample.model.body().spheres.iter().enumerate();
     let away = spheres.map(|(i, sphere)| (centre(sample, frame, i) - place).norm_squared().sqrt() - sphere.radius_m);

@@ -8,18 +8,18 @@ use crate::forces::chain::wing::Slider;
 use crate::model::setup::Setup;
 use crate::results::sample::Sample;
 
-/// What belts and their straps are called among all forces on spheres.
+/// Kinds of belts and straps among all forces on spheres.
 const BELTS: [&str; 2] = ["belt", "strap"];
 
-/// The belts round one pelvis.
+/// Belts round one pelvis.
 #[derive(Clone, Debug)]
 struct Slide {
     sphere: usize,
     slider: Slider,
-    /// When the pelvis was seen last, s, and when the belts would have come off.
+    /// Last time of the check, s, and the time at which the belts would have come off.
     seen_s: f64,
     off_s: Option<f64>,
-    /// Names of the belts and of their figures.
+    /// Names of the belts and of their results.
     belts: Vec<[String; 2]>,
 }
 

@@ -8,8 +8,8 @@ use crate::forces::plate::{Band, DEEP};
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// By column, then by hinge: which it is, the last point of its force, m or rad, and the largest stroke beyond it. By plate: its name, how far it is known,
-/// and the largest deflection, m.
+/// By column, then by hinge: its name, the last point of its force, m or rad, and the largest stroke beyond it. By
+/// plate: its name, its known range, and the largest deflection, m.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strokes(Vec<(Beyond, f64, Peak)>, Vec<(String, Known, Peak)>);
 
@@ -26,12 +26,12 @@ impl Beyond {
     }
 }
 
-/// How far a plate is known.
+/// Known range of a plate.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Known {
-    /// To a part of the depth behind it, m.
+    /// A fraction of the depth behind it, m.
     Depth(f64),
-    /// To the last point of its force, m.
+    /// The last point of its force, m.
     Last(f64),
 }
 
@@ -72,21 +72,21 @@ impl Strokes {
         }
     }
 
-    /// Takes over the largest strokes of steps.
+    /// Takes the largest strokes of steps.
     pub(super) fn see_steps<'p>(&mut self, peaks: impl Iterator<Item = &'p [Peak]>) {
         for ((_, last_m, beyond), own) in self.0.iter_mut().zip(peaks) {
             beyond.see(own[0].value - *last_m, own[0].time_s);
         }
     }
 
-    /// The same of plates.
+    /// The same for plates.
     pub(super) fn see_plates<'p>(&mut self, peaks: impl Iterator<Item = &'p [Peak]>) {
         for ((.., most), own) in self.1.iter_mut().zip(peaks) {
             most.see(own[0].value, own[0].time_s);
         }
     }
 
-    /// What to know of columns and chests.
+    /// Caveats of columns and chests.
     pub(super) fn caveats(&self) -> impl Iterator<Item = Caveat> {
         let beyond = self.0.iter().filter(|(.., beyond)| beyond.value > 0.0);
         let deep = self.1.iter().filter(|(_, known, most)| most.value > known.most_m());

@@ -23,8 +23,8 @@ use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use crash_measures::injury::{self, Measure, Options, Signals};
 
-/// Measures that change by more of their value without every other reading are not quoted to a per cent. The change is about the
-/// error: see `measures.md`.
+/// Relative change without every second reading above which measures get a caveat. The change is about the error: see
+/// `measures.md`.
 const COARSE: f64 = 0.01;
 
 /// Collects a [`Summary`]. Allocates at the start of a run and at its end, never between.
@@ -33,19 +33,19 @@ pub struct Summarizer {
     options: Options,
     case: Option<Case>,
     outputs: usize,
-    /// By body that has a head, a chest or a pelvis; at least one.
+    /// By body with a head, a chest or a pelvis; at least one.
     pub(super) people: Vec<Watched>,
     flights: Vec<Flight>,
     compartments: Vec<Compartment>,
     elements: Elements,
     events: Events,
-    /// Largest values at all accepted steps, of a run whose steps nobody has looked at those at its outputs; and those at the latest
-    /// output.
+    /// Largest values at all accepted steps (at outputs for a run whose steps were not recorded); and those at the
+    /// latest output.
     seen: Peaks,
     now: Peaks,
     /// Whether they are those of steps.
     are_of_steps: bool,
-    /// The readings since the latest output, its time and what was read there.
+    /// Readings since the latest output, its time and its readings.
     fine: Fine,
     latest_s: f64,
     latest: Vec<Reading<f64>>,
@@ -53,23 +53,23 @@ pub struct Summarizer {
     signs: Signs,
 }
 
-/// What is known of a run before its start.
+/// Data of a run before its start.
 #[derive(Clone, Debug)]
 struct Case {
     title: String,
     body: Body,
-    /// What can be touched: surfaces, solids, and where the body meets itself the parts of its spheres.
+    /// Touchable objects: surfaces, solids, and with contact of the body with itself the parts of its spheres.
     surfaces: Vec<String>,
     meets_itself: bool,
     chains: Vec<Chain>,
     bags: Vec<Bag>,
-    /// Whether there is anything that is at rest outside of vehicles.
+    /// Whether there is any geometry at rest outside vehicles.
     has_ground: bool,
-    /// Whether parts of the body may be left out, as on a rig.
+    /// Whether parts of the body may be missing, as on a rig.
     is_on_rig: bool,
     /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
     is_half_a_neck: bool,
-    /// By the names of the bodies that do not rest at the start.
+    /// By name: bodies that are not at rest at the start.
     unbalanced: Vec<(&'static str, Settled)>,
     integrator: &'static str,
     time: TimeSpan,
@@ -77,7 +77,7 @@ struct Case {
 }
 
 impl Case {
-    /// Bodies that do not rest at the start, with the figures that fall into the time for which that spoils them.
+    /// Caveats of bodies that are not at rest at the start, with the results of the affected time.
     fn caveats_of_start(&self, people: &[(&'static str, Person, Signals)], touched: &[SpherePeak]) -> Vec<Caveat> {
         let is_early = |time_s: f64| time_s < self.time.start_s + Settled::FADES_S;
         let one = |(name, left): &(&'static str, Settled)| {
@@ -96,17 +96,17 @@ impl Case {
 }
 
 impl Summarizer {
-    /// Nothing seen yet.
+    /// Empty summarizer.
     pub fn new() -> Self {
         Summarizer::default()
     }
 
-    /// Nothing seen yet; measures will be compared with what `options` say.
+    /// Empty summarizer with other measures, limits and filters.
     pub fn judging(options: Options) -> Self {
         Summarizer { options, ..Summarizer::default() }
     }
 
-    /// The summary of the run that has ended; `None` before its end. `wall_time_s` is what the caller's clock says.
+    /// Summary of the run that has ended; `None` before its end. `wall_time_s` is measured by the caller.
     pub fn summary(&self, wall_time_s: Option<f64>) -> Option<Summary> {
         let (outcome, case) = (self.outcome.as_ref()?, self.case.as_ref()?);
         let time = &case.time;
@@ -171,7 +171,7 @@ impl Summarizer {
         Some(summary.ended(status, reason))
     }
 
-    /// All that are watched, with the signals that their measures are made of.
+    /// All bodies with results, with the signals of their measures.
     fn persons(&self, peaks: &Peaks) -> Vec<(&'static str, Person, Signals)> {
         let mut fine = self.fine.clone();
         if self.are_of_steps {
@@ -185,13 +185,13 @@ impl Summarizer {
         self.people.iter().enumerate().map(one).collect()
     }
 
-    /// By body, what left the compartment that it started in.
+    /// Ejections by body.
     fn ejections(&self, case: &Case) -> InOrder<&'static str, Ejection> {
         let all = self.compartments.iter();
         all.filter_map(|of| Some((of.name, of.ejection(&case.body.spheres, &case.surfaces)?))).collect()
     }
 
-    /// What is to know of those who were ejected: their verdict, throw, and figures of later times.
+    /// Caveats of ejected bodies: on their verdict, throw, and results of later times.
     fn by_chance(
         people: &[(&'static str, Person, Signals)],
         ejections: &InOrder<&'static str, Ejection>,
@@ -205,7 +205,7 @@ impl Summarizer {
         ejections.iter().filter_map(one).collect()
     }
 
-    /// Parts that left a compartment where there is nothing outside.
+    /// Parts that left a compartment where there is no geometry outside.
     fn unmet(case: &Case, ejections: &InOrder<&'static str, Ejection>) -> Vec<Caveat> {
         let all = ejections.values().filter(|_| !case.has_ground).flat_map(|ejection| &ejection.parts);
         let tree = &case.body.tree;
@@ -218,7 +218,7 @@ impl Summarizer {
         all.filter_map(|exit| Some(Caveat::left_compartment(&case.body, sphere(&exit.part)?, exit))).collect()
     }
 
-    /// What the outputs show of the bodies, then what is to know of necks and of measures alone.
+    /// Caveats of the outputs, then those of necks and of measures alone.
     fn caveats(
         &self,
         case: &Case,
@@ -263,7 +263,7 @@ impl Summarizer {
     }
 }
 
-/// The largest forces on the parts that touched anything.
+/// Largest forces on the parts with contact.
 fn sphere_forces(case: &Case, peaks: &Peaks) -> Vec<SpherePeak> {
     let named = case.body.parts().zip(&peaks.parts).filter(|(_, track)| track.force.value > 0.0);
     let one = |(part, track): (&str, &PartPeak)| SpherePeak {
@@ -336,7 +336,7 @@ impl Recorder for Summarizer {
     }
 }
 
-/// The bodies that do not rest where they begin.
+/// Bodies that are not at rest at the start.
 fn unbalanced(model: &Model) -> Vec<(&'static str, Settled)> {
     let all = if model.alone().is_empty() { std::slice::from_ref(model) } else { model.alone() };
     let left = all.iter().map(|alone| alone.start().unsettled.or(alone.start().settled));
@@ -344,7 +344,7 @@ fn unbalanced(model: &Model) -> Vec<(&'static str, Settled)> {
     bodies.zip(left).filter_map(|(name, left)| Some((name, left.filter(Settled::is_unbalanced)?))).collect()
 }
 
-/// Names of surfaces and solids, and the parts of the spheres that others can touch.
+/// Names of surfaces and solids, and of the parts whose spheres others can touch.
 fn touchable(setup: &Setup) -> Vec<String> {
     let fixed = setup.surfaces.len() + setup.solids.len();
     let parts = setup.self_contact.iter().flat_map(|_| setup.body.spheres.iter().map(|sphere| sphere.part.as_str()));
@@ -357,14 +357,14 @@ fn has_ground(setup: &Setup) -> bool {
     frames.into_iter().any(|frame| setup.is_ground(setup.belongs_to(frame)))
 }
 
-/// Whether the window of a measure's largest value ends after `last_s`, and that value is of any size beside its limits.
+/// Whether the window of a measure's maximum ends after `last_s`, and its value is relevant compared with the limits.
 fn is_cut_off(measure: &Measure, last_s: f64) -> bool {
     let is_window = measure.from_s.zip(measure.to_s).is_some_and(|(from_s, to_s)| from_s < to_s && to_s > last_s);
     let value = measure.value.unwrap_or(0.0);
     is_window && measure.limits.iter().any(|limit| value > COARSE * limit.most)
 }
 
-/// First contacts part by part; two parts of the body touch each other.
+/// First contacts by part; a contact of two parts of the body counts for both.
 fn contacts(outcome: &Outcome, case: &Case) -> Vec<ContactBegin> {
     let spheres = &case.body.spheres;
     let mut list: Vec<ContactBegin> = Vec::new();

@@ -49,7 +49,7 @@ fn a_free_fall_feels_nothing_and_goes_half_g_t_squared() {
     assert!(s.energy.balance_error < 1e-12);
 }
 
-/// Keeps every head reading and every sphere force, the plain way.
+/// Keeps every head reading and every sphere force, as a plain list.
 #[derive(Default)]
 struct Everything {
     head: Vec<(f64, f64)>,
@@ -105,7 +105,7 @@ fn peaks_are_those_of_the_whole_record() {
     }
 }
 
-/// Steps of a fixed length see what outputs at each of them do.
+/// With steps of a fixed length, peaks of steps equal those of outputs at each step.
 #[test]
 fn peaks_of_steps_are_those_of_outputs_at_every_step() {
     let of = |output_s: f64| {

@@ -12,87 +12,87 @@ use serde::Serialize;
 use super::searle::{Searle, Way};
 use crate::body::ContactSphere;
 
-/// A body slower than this at the end of a run is at rest, m/s.
+/// Speed at the end of a run below which a body is at rest, m/s.
 const AT_REST_M_S: f64 = 0.1;
 
-/// How a body was thrown.
+/// Throw of a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Throw {
-    /// What its distances count from.
+    /// Reference of its distances.
     pub from: ThrowStart,
-    /// When that was.
+    /// Its time, s.
     pub struck_s: f64,
-    /// When and how it left what struck or carried it; absent while it has not.
+    /// Separation from the striking or carrying object; none before it.
     pub launch: Option<Launch>,
-    /// Times from which and until which it touched nothing but itself.
+    /// Start and end of the times without contact other than with itself, s.
     pub airborne_s: Vec<[f64; 2]>,
-    /// Horizontal distance from the launch to the landing.
+    /// Horizontal distance from launch to landing, m.
     pub airborne_m: Option<f64>,
-    /// The first contact of the ground after the launch, of a body that flew between.
+    /// First contact with the ground after the launch, for a body that was airborne between.
     pub landing: Option<Landing>,
-    /// Horizontal distance from the landing to the end; from the launch of a body that was never in the air.
+    /// Horizontal distance from landing to the end, m; from the launch for a body that was never airborne.
     pub slide_m: Option<f64>,
-    /// Throw distance: from the blow to the end.
+    /// Throw distance, from the blow to the end, m.
     pub distance_m: f64,
-    /// Horizontal distance from the launch to the end.
+    /// Horizontal distance from launch to the end, m.
     pub from_launch_m: Option<f64>,
-    /// Largest height of its centre of gravity over that at the blow.
+    /// Largest height of its centre of gravity above that at the blow, m.
     pub height_m: f64,
-    /// Its speed at the end.
+    /// Speed at the end, m/s.
     pub end_speed_m_s: f64,
-    /// Whether it is at rest there. If not, distances are those so far.
+    /// Whether it is at rest at the end. If not, distances are those so far.
     pub at_rest: bool,
-    /// Searle's bounds; absent of a body that does not rest, or touched no ground with friction after the launch.
+    /// Searle's bounds; none for a body that is not at rest, or without friction on the ground after the launch.
     pub searle: Option<Searle>,
 }
 
-/// What the distances of a throw count from.
+/// Reference of the distances of a throw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ThrowStart {
-    /// The first contact of a vehicle that is not its own.
+    /// First contact with a vehicle other than its own.
     Struck,
     /// The blow on the vehicle that carried it.
     Blow,
     /// The launch: no blow on the vehicle that carried it was found.
     Launch,
-    /// The first contact of the ground: neither was found.
+    /// First contact with the ground: neither was found.
     Ground,
 }
 
-/// How a body leaves what struck or carried it.
+/// Separation of a body from the striking or carrying object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Launch {
-    /// When: the first output at which it touches nothing of it.
+    /// First output without contact with it, s.
     pub time_s: f64,
     /// Speed of the centre of gravity of the whole body.
     pub speed_m_s: f64,
     /// Angle of that velocity above the horizontal.
     pub angle_deg: f64,
-    /// Horizontal distance from its place at the blow.
+    /// Horizontal distance from its position at the blow, m.
     pub distance_m: f64,
-    /// Height of the centre of gravity over that at the end.
+    /// Height of the centre of gravity above that at the end, m.
     pub height_m: f64,
 }
 
-/// How a body comes to the ground.
+/// Landing of a body on the ground.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Landing {
-    /// When.
+    /// Time, s.
     pub time_s: f64,
-    /// The sphere that touches first.
+    /// Sphere of the first contact.
     pub sphere: String,
     /// Speed of the centre of gravity of the whole body.
     pub speed_m_s: f64,
     /// Angle of that velocity below the horizontal.
     pub angle_deg: f64,
-    /// Horizontal distance of the centre of gravity from its place at the blow.
+    /// Horizontal distance of the centre of gravity from its position at the blow, m.
     pub distance_m: f64,
-    /// That of the sphere which touches.
+    /// Horizontal distance of the touching sphere, m.
     pub touch_distance_m: f64,
 }
 
-/// The centre of gravity of a body at an instant.
+/// Centre of gravity of a body at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moment {
     pub time_s: f64,
@@ -100,16 +100,16 @@ pub(super) struct Moment {
     pub velocity_m_s: Vector3<f64>,
 }
 
-/// The first contact of the ground at the end of a flight.
+/// First contact with the ground at the end of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touchdown {
     pub at: Moment,
-    /// Index of the sphere that touches.
+    /// Index of the touching sphere.
     pub sphere: usize,
     pub sphere_m: Vector3<f64>,
 }
 
-/// What a run shows of a throw.
+/// Course of a throw in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Course {
     pub from: ThrowStart,
@@ -125,7 +125,7 @@ pub(super) struct Course {
 }
 
 impl Moment {
-    /// Horizontal distance from another place.
+    /// Horizontal distance from another position, m.
     fn away_m(&self, other: &Moment) -> f64 {
         (self.place_m - other.place_m).xy().norm()
     }
@@ -139,7 +139,7 @@ impl Moment {
         self.velocity_m_s.z.atan2(self.velocity_m_s.xy().norm()).to_degrees()
     }
 
-    /// A time earlier, on the same straight.
+    /// Earlier time, on the same straight line.
     pub(super) fn before(self, time_s: f64) -> Self {
         let back_s = self.time_s - time_s;
         Moment { time_s, place_m: self.place_m - self.velocity_m_s * back_s, ..self }

@@ -11,30 +11,30 @@ use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 use crate::run::ahead::Ahead;
 
-/// Everything that acts on the runs side by side, and what it remembers.
+/// Force elements of the runs side by side, with their memory.
 #[derive(Clone, Debug)]
 pub(crate) struct Bench<L: Lanes> {
     pub state: State<L>,
-    /// Where the latest step began, if anything can switch in any of the runs.
+    /// Start of the latest step, if any element can switch in any of the runs.
     pub rear: Option<Rear<L>>,
     pub stages: Stages<L>,
     pub history: History<L>,
-    /// Of runs under error control, which need none of the above.
+    /// Data of runs under error control, which need none of the above.
     pub ahead: Option<Box<Ahead<L>>>,
     pub tolerance: Tolerance<L>,
     pub around: Around<L>,
 }
 
-/// What a rate is computed from beside the state.
+/// Data of a rate other than the state.
 #[derive(Clone, Debug)]
 pub(crate) struct Around<L: Lanes> {
     pub system: System<L>,
-    /// At the step's start, middle and end; under error control at the stages of a trial.
+    /// At the step's start, middle and end; under error control, at the stages of a trial.
     pub frames: [Frames<L>; 3],
     pub scratch: Scratch<L>,
 }
 
-/// Where the latest step of all runs began, and where that under way does.
+/// Start of the latest step of all runs, and of the present one.
 #[derive(Clone, Debug)]
 pub(crate) struct Rear<L: Lanes> {
     // boxed, as they change hands at every step
@@ -42,7 +42,7 @@ pub(crate) struct Rear<L: Lanes> {
     pub ahead: Box<Start<L>>,
 }
 
-/// The start of a step: states, and what was remembered before the commit there.
+/// Start of a step: states, and the memory before the commit there.
 #[derive(Clone, Debug)]
 pub(crate) struct Start<L: Lanes> {
     pub state: State<L>,
@@ -50,7 +50,7 @@ pub(crate) struct Start<L: Lanes> {
 }
 
 impl<L: Lanes> Bench<L> {
-    /// Keeps where the step ahead begins.
+    /// Keeps the start of the next step.
     pub fn keep_start(&mut self) {
         if let Some(rear) = &mut self.rear {
             rear.ahead.state = self.state;
@@ -58,13 +58,13 @@ impl<L: Lanes> Bench<L> {
         }
     }
 
-    /// In which lanes the commit of the step just taken has shown that something switched within the latest.
+    /// Lanes in which the commit of the present step shows that an element switched within the latest.
     pub fn has_switched(&self) -> L {
         let mask = self.rear.as_ref().map(|rear| rear.ahead.memory.has_switched(&self.history.memory));
         mask.map_or(L::zero(), |mask| L::select(mask, L::one(), L::zero()))
     }
 
-    /// The step just taken becomes the latest.
+    /// The present step becomes the latest.
     pub fn shift(&mut self) {
         if let Some(rear) = &mut self.rear {
             std::mem::swap(&mut rear.latest, &mut rear.ahead);
@@ -72,7 +72,7 @@ impl<L: Lanes> Bench<L> {
     }
 }
 
-/// Moves the frames of lane `i` to a time of its step, whose middle is told too.
+/// Moves the frames of lane `i` to a time of its step, given with the step's middle.
 pub(super) fn move_frames<L: Lanes>(i: usize, place: &mut Place, lanes: &mut Frames<L>, [t_s, middle_s]: [f64; 2]) {
     // space is at rest
     let Place { frames, model, run, .. } = place;
@@ -83,7 +83,7 @@ pub(super) fn move_frames<L: Lanes>(i: usize, place: &mut Place, lanes: &mut Fra
     }
 }
 
-/// A bench on which every lane is that of `model`.
+/// A bench with `model` in every lane.
 pub(super) fn new_bench<L: Lanes>(model: &Model) -> Option<Box<Bench<L>>> {
     let system = model.system();
     let system = system.zip(system, |x, _| L::of(x)).ok()?;

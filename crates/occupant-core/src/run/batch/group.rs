@@ -53,7 +53,7 @@ impl<L: Machine> Group<L> {
         }
     }
 
-    /// Gives the run of `model` place `i`, or runs it alone if it has no place among these.
+    /// Adds the run of `model` at index `i`, or runs it alone if it does not fit the others.
     fn seat(&mut self, i: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let is_controlled = Control::of(&model.setup().integrator).is_some();
         let is_alike = self.places.iter().flatten().all(|place| place.control.is_some() == is_controlled);
@@ -70,7 +70,7 @@ impl<L: Machine> Group<L> {
         self.places.iter().flatten().all(|place| place.control.is_some())
     }
 
-    /// Puts the constants of `model` into lane `i`; false if its structure is another than that of the runs here.
+    /// Copies the constants of `model` to lane `i`; false if its structure differs from that of the other runs.
     fn make_room(&mut self, i: usize, model: &Model) -> bool {
         let alone = self.places.iter().all(Option::is_none);
         let put = |lanes: L, x: f64| lanes.with_lane(i, x);
@@ -98,7 +98,7 @@ impl<L: Machine> Group<L> {
         self.bench.is_some()
     }
 
-    /// One step of every run, and the outputs that are reached.
+    /// One step of every run, and the outputs reached.
     fn step(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let Some(bench) = &mut self.bench else {
             return ControlFlow::Continue(());
@@ -143,7 +143,7 @@ impl<L: Machine> Group<L> {
         ControlFlow::Continue(())
     }
 
-    /// Notes what has switched at the start of the step under way of the run in place `i`.
+    /// Notes the switches at the start of the present step of run `i`.
     fn note_switches(&mut self, i: usize, place: &mut Place) {
         let Some((bench, rear)) = self.bench.as_mut().zip(place.run.rear.as_deref_mut()) else { return };
         let Some(lanes) = &mut bench.rear else { return };
@@ -152,8 +152,8 @@ impl<L: Machine> Group<L> {
         place.run.switches.note(&place.model.system().forces, place.step.start_s, before, now);
     }
 
-    /// Takes back the step before the one just taken, and that one, of each run in which something has switched within the
-    /// former, and takes the former again, alone; which runs these are.
+    /// Reverts the present step and the one before it in each run in which an element switched within the latter, and
+    /// repeats that step alone; returns these runs.
     fn go_back(&mut self, switched: L, jobs: &mut dyn Jobs) -> ControlFlow<(), [bool; MOST_PLACES]> {
         let mut gone_back = [false; MOST_PLACES];
         for i in (0..L::COUNT).filter(|i| switched.lane(*i) > 0.0) {
@@ -170,7 +170,7 @@ impl<L: Machine> Group<L> {
         ControlFlow::Continue(gone_back)
     }
 
-    /// Brings the run in place `i` to where its latest step began.
+    /// Moves run `i` back to the start of its latest step.
     fn fetch_start(&mut self, i: usize, run: &mut Course) {
         if let Some(rear) = self.bench.as_mut().and_then(|bench| bench.rear.as_mut()) {
             let Start { state, memory } = &mut *rear.latest;
@@ -180,7 +180,7 @@ impl<L: Machine> Group<L> {
         }
     }
 
-    /// Tells the run in place `i` where its latest step, just accepted, began.
+    /// Gives run `i` the start of its latest accepted step.
     fn fetch_rear(&mut self, i: usize, run: &mut Course, step: Step) {
         let lanes = self.bench.as_mut().and_then(|bench| bench.rear.as_mut());
         if let (Some(lanes), Some(rear)) = (lanes, &mut run.rear) {
@@ -192,7 +192,7 @@ impl<L: Machine> Group<L> {
         }
     }
 
-    /// Accepts the step of the run of place `i`, if it led to numbers, and records an output that it reached.
+    /// Accepts the step of run `i` if it is finite, and records an output reached.
     fn settle(&mut self, i: usize, mut place: Box<Place>, finite: bool, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         if let Some(bench) = &self.bench {
             let past = &bench.history.memory.contacts;
@@ -221,7 +221,7 @@ impl<L: Machine> Group<L> {
         self.go_on_or_end(i, place, next, jobs)
     }
 
-    /// Puts a run back into its place, or hands it out.
+    /// Puts a run back at its index, or ends it.
     fn go_on_or_end(&mut self, i: usize, mut place: Box<Place>, next: Next, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         // the output touched the history; and a lane that failed gets numbers again
         if let Some(bench) = &mut self.bench {
@@ -249,7 +249,7 @@ impl<L: Machine> Group<L> {
         jobs.end(i, model, outcome, self.kernel)
     }
 
-    /// The state of `run`, which is in place `i`.
+    /// State of `run` at index `i`.
     fn lane_state(&self, i: usize, run: &Course) -> State<f64> {
         let mut state = run.state;
         if let Some(bench) = &self.bench {
@@ -258,8 +258,8 @@ impl<L: Machine> Group<L> {
         state
     }
 
-    /// Brings the history of the run in place `i` up to date. What is far from touching stays left out where no contact has
-    /// begun or ended meanwhile.
+    /// Updates the history of run `i`. Pairs far from contact stay skipped where no contact has begun or ended
+    /// meanwhile.
     fn fetch_history(&mut self, i: usize, run: &mut Course) {
         let Some(bench) = &mut self.bench else { return };
         let (lanes, own) = (&mut bench.history.memory, &mut run.history.memory);
@@ -270,7 +270,7 @@ impl<L: Machine> Group<L> {
         }
     }
 
-    /// Finishes the only run left with the scalar kernel.
+    /// Finishes the only remaining run with the scalar kernel.
     fn finish_the_last(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         for i in 0..L::COUNT {
             let Some(mut place) = self.places[i].take() else { continue };
@@ -290,7 +290,7 @@ impl<L: Machine> Group<L> {
     }
 }
 
-/// f called with every number that is used and the one in the same place of `other`, of the same shape.
+/// Calls f with corresponding numbers in use of this and `other`, of the same shape.
 #[inline(always)]
 fn each<A: Copy, B: Copy>(own: &mut State<A>, other: &State<B>, f: impl Fn(&mut A, B)) {
     own.numbers_mut().iter_mut().zip(other.numbers()).for_each(|(own, other)| f(own, *other));

@@ -14,33 +14,32 @@ use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 use crate::run::ahead::Ahead;
 
-/// Lanes that some processors can compute with.
+/// Lanes supported by some processors.
 pub(crate) trait Machine: Lanes {
-    /// Begins steps, of which each lane has its length; returns the lengths that what is near bears. `witness` sees the
-    /// evaluation.
+    /// Begins steps with a length per lane; returns the lengths that near pairs permit. `witness` sees the evaluation.
     fn begin(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
 
-    /// Takes the rest of the steps; a 1 for every lane in which the state is one of finite numbers then.
+    /// Takes the rest of the steps; 1 in every lane with a finite state.
     fn go(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
 
-    /// Under error control: works out the rates where steps begin, in the lanes that have a 1, and returns the lengths that what
-    /// is near bears of steps of these lengths. `witness` sees the evaluation.
+    /// Under error control: rates at the starts of steps, in the lanes with 1; returns the lengths that near pairs
+    /// permit. `witness` sees the evaluation.
     fn look(bench: &mut Bench<Self>, looks: Self, h: Self, witness: &mut Witness<'_>) -> Self;
 
-    /// Tries steps under error control; a 1 for every lane in which something has switched by their ends, where `witness` sees
-    /// the evaluation.
+    /// Tries steps under error control; 1 in every lane in which an element has switched by the end, where `witness`
+    /// sees the evaluation.
     fn attempt(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> (Errors<Self>, Self);
 
-    /// After a shift: leaves out what was left out before in the lanes that have a 1.
+    /// After a shift: keeps the skipped pairs in the lanes with 1.
     fn keep_hints(bench: &mut Bench<Self>, kept: Self);
 }
 
 /// An evaluation of all lanes.
 #[derive(Clone, Copy)]
 pub(super) struct Call {
-    /// Which frames.
+    /// Index of the frames.
     frames: usize,
-    /// Whether the history takes over the place; the witness then sees it.
+    /// Whether the history is updated; the witness then sees it.
     accepted: bool,
 }
 
@@ -52,7 +51,7 @@ impl From<Stage> for Call {
 }
 
 impl<L: Lanes> Around<L> {
-    /// The rate of `state`, in the instructions of the caller.
+    /// Rate of `state`, in the instructions of the caller.
     #[inline(always)]
     fn rate(
         &mut self,
@@ -82,7 +81,7 @@ impl<L: Lanes, F> Rate<L> for F where
 }
 
 impl<L: Lanes> Bench<L> {
-    /// The first evaluation of a step, in the instructions of the caller; `rate` is [`Around::rate`] compiled for them.
+    /// First evaluation of a step, in the instructions of the caller; `rate` is [`Around::rate`] compiled for them.
     #[inline(always)]
     fn begin(&mut self, h: L, witness: &mut Witness<'_>, rate: impl Rate<L>) -> L {
         let Bench { state, stages, history, around, .. } = self;
@@ -90,7 +89,7 @@ impl<L: Lanes> Bench<L> {
         history.step(h)
     }
 
-    /// The rest of it.
+    /// Rest of the step.
     #[inline(always)]
     fn go(&mut self, h: L, witness: &mut Witness<'_>, rate: impl Rate<L>) -> L {
         let Bench { state, stages, history, around, .. } = self;

@@ -35,33 +35,33 @@ use crate::results::outcome::{Outcome, RecordingFailed};
 use crate::results::recorder::Recorder;
 use crate::run::simulate::attempt;
 
-/// A run to be done.
+/// A run to be computed.
 #[derive(Clone, Debug)]
 pub struct Job<T, R> {
     /// The caller's tag of this run.
     pub tag: T,
-    /// What is run.
+    /// Model.
     pub model: Model,
-    /// Where its results go.
+    /// Recorder of its results.
     pub recorder: R,
 }
 
 /// A finished run, with everything of its [`Job`].
 #[derive(Debug)]
 pub struct Ended<T, R> {
-    /// The tag of its job.
+    /// Tag of its job.
     pub tag: T,
-    /// What was run.
+    /// Model.
     pub model: Model,
-    /// Where its results went.
+    /// Recorder of its results.
     pub recorder: R,
-    /// How it ended, or why it could not be recorded.
+    /// Outcome, or the error of the recorder.
     pub outcome: Result<Outcome, RecordingFailed>,
-    /// What computed it.
+    /// Kernel that computed it.
     pub kernel: Kernel,
 }
 
-/// How many runs a processor core computes at once.
+/// Number of runs that a processor core computes at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kernel {
     /// One run at a time.
@@ -73,14 +73,14 @@ pub enum Kernel {
 }
 
 impl Kernel {
-    /// The fastest one that this processor has.
+    /// Fastest kernel of this processor.
     pub fn best() -> Kernel {
         let all = [Kernel::Lanes8, Kernel::Lanes4];
         let found = all.into_iter().find(|kernel| kernel.is_available());
         found.unwrap_or(Kernel::Scalar)
     }
 
-    /// True if this processor has it.
+    /// Whether this processor supports it.
     pub fn is_available(self) -> bool {
         match self {
             Kernel::Scalar => true,
@@ -93,7 +93,7 @@ impl Kernel {
         }
     }
 
-    /// The one of that name.
+    /// Kernel with this name.
     pub fn named(name: &str) -> Option<Kernel> {
         let all = [Kernel::Scalar, Kernel::Lanes4, Kernel::Lanes8];
         all.into_iter().find(|kernel| kernel.name() == name)
@@ -129,7 +129,7 @@ pub fn simulate_many<T, R: Recorder>(
     run_all(kernel, &mut JobList { jobs: jobs.into_iter(), on_end: &mut on_end, under_way, nobody: () });
 }
 
-/// Compiled here, once for each kind of lanes, whatever jobs there are and whoever brings them.
+/// Compiled here, once for each kind of lanes, for all types of jobs.
 fn run_all(kernel: Kernel, jobs: &mut dyn Jobs) {
     // whether all were run or the caller broke off, there is nothing left to do
     let _ = match kernel {
@@ -141,13 +141,13 @@ fn run_all(kernel: Kernel, jobs: &mut dyn Jobs) {
     };
 }
 
-/// Where the models of a group come from and go to, and what their jobs bring besides.
+/// Source and destination of the models of a group, with the other data of their jobs.
 trait Jobs {
-    /// The model of the next job, which gets `place`.
+    /// Model of the next job, which gets the index `place`.
     fn next(&mut self, place: usize) -> Option<Model>;
-    /// Where the results of the run in `place` go.
+    /// Recorder of the run at `place`.
     fn recorder(&mut self, place: usize) -> &mut dyn Recorder;
-    /// Takes back the run of `place`, which has ended.
+    /// Takes the ended run of `place`.
     fn end(
         &mut self,
         place: usize,
@@ -157,16 +157,16 @@ trait Jobs {
     ) -> ControlFlow<()>;
 }
 
-/// As many places as any lanes have.
+/// Largest number of lanes.
 const MOST_PLACES: usize = 8;
 
-/// A list of jobs with what takes the runs that have ended.
+/// List of jobs with the receiver of ended runs.
 struct JobList<I, F, T, R> {
     jobs: I,
     on_end: F,
-    /// Tags and recorders of the runs under way, by place.
+    /// Tags and recorders of the present runs, by index.
     under_way: Vec<Option<(T, R)>>,
-    /// Records what belongs to no run.
+    /// Recorder for data of no run.
     nobody: (),
 }
 
@@ -211,7 +211,7 @@ fn one_by_one(jobs: &mut dyn Jobs) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// The run of `model`, the job of `place`, with the scalar kernel.
+/// Runs `model`, the job of `place`, with the scalar kernel.
 fn run_alone(place: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
     let outcome = attempt(&model, jobs.recorder(place));
     jobs.end(place, model, outcome, Kernel::Scalar)

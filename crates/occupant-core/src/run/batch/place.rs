@@ -15,31 +15,31 @@ use crate::run::observers::{Felt, Meeting};
 use crate::run::simulate::go_on;
 use crate::run::{Course, Step, Stretch};
 
-/// A run in its place; the tag and the recorder of its job stay with the [`Jobs`](super::Jobs).
+/// A run at its index; tag and recorder of its job stay with the [`Jobs`](super::Jobs).
 pub(super) struct Place {
     pub model: Model,
     pub run: Course,
     /// Steps to the next output.
     stretch: Stretch,
     step_s: f64,
-    /// The step of this length that is under way.
+    /// Planned step.
     whole: Step,
-    /// All of it, or a part that what is near bears.
+    /// All of it, or the part that near pairs permit.
     pub step: Step,
-    /// The step before it, if the run can go back to it, and what was to come then.
+    /// The step before it, if the run can go back to it, and the planned steps then.
     pub latest: Option<Step>,
     before: (Stretch, [Step; 2]),
-    /// Room for the frames of one instant.
+    /// Buffer for the frames of one instant.
     pub frames: Frames<f64>,
-    /// Of a run under error control.
+    /// Data of a run under error control.
     pub control: Option<Control>,
-    /// Whether the evaluation under way is of the start of its step.
+    /// Whether the present evaluation is at the start of its step.
     pub looks: bool,
-    /// Whether something has switched by the end of its latest trial.
+    /// Whether an element has switched by the end of its latest trial.
     pub jumps: bool,
 }
 
-/// What becomes of a run after a step or an output.
+/// Continuation of a run after a step or an output.
 pub(super) enum Next {
     GoesOn,
     Ends(Result<Status, RecordingFailed>),
@@ -63,7 +63,7 @@ impl Place {
         Place { frames, model, stretch, run, step_s, whole, step, latest, before, control, looks, jumps }
     }
 
-    /// The first output.
+    /// First output.
     pub(super) fn begin(&mut self, recorder: &mut dyn Recorder) -> Next {
         match self.run.begin(&self.model, recorder) {
             Ok(()) => self.output(recorder),
@@ -71,7 +71,7 @@ impl Place {
         }
     }
 
-    /// Records an output and turns to the next.
+    /// Records an output and continues with the next.
     pub(super) fn output(&mut self, recorder: &mut dyn Recorder) -> Next {
         match self.run.record(&self.model, recorder) {
             Err(error) => return Next::Ends(Err(error)),
@@ -86,13 +86,13 @@ impl Place {
         Next::GoesOn
     }
 
-    /// What is left of the step under way; none behind its end.
+    /// Rest of the present step; none after its end.
     fn left(&self) -> Option<Step> {
         let start_s = self.step.end_s;
         (start_s < self.whole.end_s).then_some(Step { start_s, ..self.whole })
     }
 
-    /// The step to be taken next, which may have to end earlier; none at an output.
+    /// Next step, which may have to end earlier; none at an output.
     pub(super) fn next_step(&mut self) -> Option<Step> {
         self.before = (self.stretch, [self.whole, self.step]);
         if let Some(left) = self.left() {
@@ -102,7 +102,7 @@ impl Place {
         Some(self.whole)
     }
 
-    /// Takes the step under way back, and the one before it again.
+    /// Reverts the present step and restores the one before it.
     pub(super) fn go_back(&mut self, latest: Step) -> Next {
         (self.stretch, [self.whole, self.step]) = self.before;
         match self.run.go_back(&self.model, latest) {
@@ -111,7 +111,7 @@ impl Place {
         }
     }
 
-    /// Accepts the step under way, but for its state; `phase` tells what pairs remember.
+    /// Accepts the present step, except its state; `phase` gives the memory of pairs.
     pub(super) fn take_step(&mut self, phase: impl Fn(usize) -> f64) {
         self.run.effort.evaluations += 4;
         self.run.note(&self.model, self.step.start_s, phase);
@@ -122,7 +122,7 @@ impl Place {
         self.left().is_none() && self.stretch.is_over()
     }
 
-    /// The rest of the run, alone.
+    /// Rest of the run, alone.
     pub(super) fn finish(&mut self, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
         let target_s = self.run.next_output_s(&self.model);
         let advanced = match target_s.filter(|_| self.control.is_some()) {
@@ -135,7 +135,7 @@ impl Place {
         }
     }
 
-    /// The model, and how its run has ended.
+    /// Model and outcome of its run.
     pub(super) fn end(
         self,
         status: Result<Status, RecordingFailed>,
@@ -145,18 +145,18 @@ impl Place {
     }
 }
 
-/// What of the runs an evaluation is.
+/// Instant of an evaluation.
 #[derive(Clone, Copy)]
 pub(super) enum Sees {
-    /// The start of steps of fixed length.
+    /// Start of steps of fixed length.
     Start,
-    /// Where a front stands, of those runs that look.
+    /// Front, of those runs that look.
     Front,
-    /// The end of a trial.
+    /// End of a trial.
     Trial,
 }
 
-/// Notes what touches and what is felt in every run.
+/// Notes contacts and readings of every run.
 pub(crate) struct Witness<'a> {
     places: &'a mut [Option<Box<Place>>],
     sees: Sees,
@@ -167,7 +167,7 @@ impl<'a> Witness<'a> {
         Witness { places, sees }
     }
 
-    /// Where what touches and what is felt is noted of the runs that are seen, with their lanes.
+    /// Buffers for contacts and readings of the observed runs, with their lanes.
     fn notes(&mut self) -> impl Iterator<Item = (usize, &mut Vec<Touching>, &mut Felt)> {
         let sees = self.sees;
         self.places.iter_mut().enumerate().filter_map(move |(i, place)| {
@@ -182,7 +182,7 @@ impl<'a> Witness<'a> {
         })
     }
 
-    /// Sees one instant alone.
+    /// Starts a separate instant.
     pub(super) fn anew(&mut self) -> &mut Self {
         for (_, met, felt) in self.notes() {
             met.clear();
@@ -191,7 +191,7 @@ impl<'a> Witness<'a> {
         self
     }
 
-    /// What the instruments of a body read.
+    /// Readings of the instruments of a body.
     #[inline(never)]
     pub(super) fn feel<L: Lanes>(&mut self, of: usize, reading: &Reading<L>) {
         for (i, _, felt) in self.notes() {

@@ -13,14 +13,14 @@ fn model(mph: f64) -> Model {
     stopped(cart().unwrap(), mph)
 }
 
-/// The case with another speed, which ends a little later for each mph.
+/// The case with another speed, with a slightly later end for each mph.
 fn stopped(mut setup: Setup, mph: f64) -> Model {
     setup.path = stop_from(0.447_04 * mph).unwrap();
     setup.time.end_s = 0.05 + 1e-3 * mph;
     Model::new(setup).unwrap()
 }
 
-/// A recorder that keeps every output as text, which shows every bit.
+/// A recorder that keeps every output as text, to the bit.
 fn keep(texts: &mut Vec<String>) -> impl Recorder + use<'_> {
     Watch(|s: &Sample<'_>| texts.push(format!("{:?} {:?}", s.checkpoint(), s.evaluation)))
 }
@@ -36,7 +36,7 @@ fn so_have_bodies_that_are_swept_as_any_tree() {
     have_the_bits_of_each_alone([12.0, 20.0, 28.0, 16.0].map(any).into());
 }
 
-/// Retractors lock, pretensioners fire and stall, belts rub and slide at times of their own in each lane.
+/// Retractors lock, pretensioners fire and stall, belts rub and slide at different times in each lane.
 #[test]
 fn so_have_belts_over_several_nodes() {
     let belted = |mph: f64| {
@@ -48,7 +48,7 @@ fn so_have_belts_over_several_nodes() {
     have_the_bits_of_each_alone([25.0, 30.0, 35.0, 40.0].map(belted).into());
 }
 
-/// The same under error control: steps, switches and corners are each run's own.
+/// The same under error control: steps, switches and kinks differ between runs.
 #[test]
 fn so_have_runs_under_error_control() {
     let belted = |mph: f64| {

@@ -14,11 +14,11 @@ use crate::results::outcome::{Status, StepError};
 use crate::run::Step;
 use crate::run::ahead::Ahead;
 
-/// Where in a trial rates are asked for, in the order of the frames on a bench.
+/// Stages of a trial at which rates are evaluated, in the order of the frames on a bench.
 const STAGES: [Stage; 3] = [Stage::Within(0.5), Stage::Within(0.75), Stage::End];
 
 impl<L: Machine> Group<L> {
-    /// Lets the run of `place`, whose first output is recorded, begin its steps in lane `i`, or hands it out.
+    /// Starts the steps of the run of `place`, after its first output, in lane `i`, or ends it.
     pub(super) fn begin_steps(
         &mut self,
         i: usize,
@@ -42,7 +42,7 @@ impl<L: Machine> Group<L> {
         ControlFlow::Continue(())
     }
 
-    /// A trial of every run, and the outputs that are reached.
+    /// A trial of every run, and the outputs reached.
     pub(super) fn try_steps(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let h = self.propose(jobs)?;
         let Group { bench: Some(bench), places, .. } = self else { return ControlFlow::Continue(()) };
@@ -65,7 +65,7 @@ impl<L: Machine> Group<L> {
         ControlFlow::Continue(())
     }
 
-    /// The trial of every run: their lengths, 0 where there is none; frames are moved.
+    /// Trial steps of every run: their lengths, 0 without a trial; moves the frames.
     fn propose(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<(), L> {
         let (mut h, mut looks) = (L::zero(), L::zero());
         let Group { bench: Some(bench), places, .. } = self else { return ControlFlow::Continue(h) };
@@ -100,7 +100,7 @@ impl<L: Machine> Group<L> {
         ControlFlow::Continue(h)
     }
 
-    /// Records the outputs within the latest step of the run in place `i`.
+    /// Records the outputs within the latest step of run `i`.
     fn reach_outputs(&mut self, i: usize, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let mut is_fetched = false;
         while let (Some(place), Some(bench)) = (&mut self.places[i], &mut self.bench)
@@ -126,14 +126,14 @@ impl<L: Machine> Group<L> {
         ControlFlow::Continue(())
     }
 
-    /// Ends the run in place `i`, a step of which has failed.
+    /// Ends run `i` after a failed step.
     fn fail(&mut self, i: usize, error: StepError, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let Some(mut place) = self.leave(i) else { return ControlFlow::Continue(()) };
         place.stand_at_front();
         self.hand_out(i, *place, Ok(Status::Failed(error)), jobs)
     }
 
-    /// Takes the run out of place `i`, in whose lane nothing moves then.
+    /// Removes run `i`; nothing moves in its lane afterwards.
     fn leave(&mut self, i: usize) -> Option<Box<Place>> {
         if let Some(Bench { ahead: Some(ahead), .. }) = self.bench.as_deref_mut() {
             ahead.rest(i);
@@ -141,7 +141,7 @@ impl<L: Machine> Group<L> {
         self.places[i].take()
     }
 
-    /// Brings the run of `place`, which was in lane `i`, to where it continues alone.
+    /// Copies the run of `place` from lane `i`, to continue alone.
     pub(super) fn fetch_ahead(&mut self, i: usize, place: &mut Place) {
         let Some(Bench { ahead: Some(ahead), .. }) = self.bench.as_deref_mut() else { return };
         place.fetch_step(i, ahead);
@@ -149,7 +149,7 @@ impl<L: Machine> Group<L> {
     }
 }
 
-/// Shifts the lanes of which a trial is accepted.
+/// Shifts the lanes with an accepted trial.
 fn shift<L: Machine>(bench: &mut Bench<L>, verdicts: &[Option<Result<bool, StepError>>; MOST_PLACES]) {
     let stays = |verdict: &Option<Result<bool, StepError>>| matches!(verdict, Some(Ok(false) | Err(_)));
     let Some(ahead) = bench.ahead.as_mut().filter(|_| verdicts.iter().any(|v| matches!(v, Some(Ok(true))))) else {
@@ -167,7 +167,7 @@ fn shift<L: Machine>(bench: &mut Bench<L>, verdicts: &[Option<Result<bool, StepE
 }
 
 impl Place {
-    /// Proposes the next trial; returns the middle of its step, or of one before it, s, where the rate at its start is asked for.
+    /// Proposes the next trial; returns the middle of its step, or of one before it, s, for the rate at its start.
     fn propose(&mut self) -> f64 {
         let (Some(control), Some(mut front)) = (&self.control, self.run.front.take()) else { return f64::NAN };
         self.step = self.run.propose(&mut front, control);
@@ -177,7 +177,7 @@ impl Place {
         self.step.middle_beside_s(follows)
     }
 
-    /// Takes of the trial the part that is no longer than `bears_s`.
+    /// Shortens the trial to `bears_s`.
     fn shorten(&mut self, bears_s: f64) -> Result<(), StepError> {
         let (Some(control), Some(mut front)) = (&self.control, self.run.front.take()) else { return Ok(()) };
         let part = self.run.shorten(&mut front, self.step.first_part(|_| bears_s), control);
@@ -208,13 +208,13 @@ impl Place {
         verdict
     }
 
-    /// The next output, and the end of the latest step, s.
+    /// Next output, and end of the latest step, s.
     fn ahead_s(&self) -> Option<(f64, f64)> {
         let target_s = self.run.next_output_s(&self.model)?;
         Some((target_s, self.run.front.as_ref()?.step.end_s))
     }
 
-    /// Notes once what there is at the end of the latest step of lane `i`.
+    /// Notes contacts and readings at the end of the latest step of lane `i`, once.
     fn note<L: Lanes>(&mut self, i: usize, ahead: &mut Ahead<L>) {
         let Some(front) = self.run.front.as_mut() else { return };
         if !front.must_note() {
@@ -232,7 +232,7 @@ impl Place {
         self.run.seen.see(&self.model, end_s, &front.met, &front.felt, |pair| past[pair].phase.lane(i));
     }
 
-    /// Fetches what outputs within the latest step of lane `i` follow from.
+    /// Copies the data for outputs within the latest step of lane `i`.
     fn fetch_step<L: Lanes>(&mut self, i: usize, ahead: &mut Ahead<L>) {
         let Some(front) = &mut self.run.front else { return };
         let alone = &mut front.ahead;
@@ -244,7 +244,7 @@ impl Place {
         alone.before.look_again();
     }
 
-    /// Fetches what the next trial of lane `i` follows from besides.
+    /// Copies the further data for the next trial of lane `i`.
     fn fetch_after<L: Lanes>(&mut self, i: usize, ahead: &mut Ahead<L>) {
         let Some(front) = &mut self.run.front else { return };
         let alone = &mut front.ahead.after;
@@ -252,7 +252,7 @@ impl Place {
         alone.begin_anew(&self.model.system().forces, ahead.after.pace().map(|lanes| lanes.lane(i)));
     }
 
-    /// The run comes to a time within its latest step.
+    /// Moves the run to a time within its latest step.
     fn show(&mut self, time_s: f64) {
         let run = &mut self.run;
         if let Some(front) = &run.front {
@@ -262,7 +262,7 @@ impl Place {
         run.time_s = time_s;
     }
 
-    /// The run comes to the end of its latest step.
+    /// Moves the run to the end of its latest step.
     fn stand_at_front(&mut self) {
         if let Some(front) = &self.run.front {
             self.run.time_s = front.step.end_s;

@@ -6,13 +6,14 @@ use std::f64::consts::{PI, TAU};
 use super::profile::{Profile, Ramp};
 use occupant_units::trig;
 
-/// Two speeds nearer than this fraction of the speeds involved are the same. A pulse whose change of velocity is
-/// meant to equal the initial speed misses it by a rounding, and the vehicle must stop at its end all the same.
+/// Relative difference below which two speeds are equal. A pulse whose change of velocity is meant to equal the initial
+/// speed misses it by rounding, and the vehicle must still stop at its end.
 const SPEED_TOLERANCE: f64 = 1e-12;
 
-/// First τ (s) at which `profile` has taken `speed_m_s` (zero or more) from the vehicle, if it does within the pulse.
+/// First τ (s) at which `profile` has reduced the speed by `speed_m_s` (zero or more), if within the pulse.
 ///
-/// For a speed of zero it is the first time at which the vehicle would begin to lose speed below its initial one.
+///
+/// For zero: the first time at which the speed would fall below the initial one.
 pub(super) fn time_of_loss(profile: &Profile, speed_m_s: f64) -> Option<f64> {
     match profile {
         Profile::HalfSine { peak_m_s2, duration_s } => {
@@ -29,8 +30,8 @@ pub(super) fn time_of_loss(profile: &Profile, speed_m_s: f64) -> Option<f64> {
     }
 }
 
-/// Time at which a pulse that only takes has taken `speed_m_s` of the `whole_m_s` that it takes over `duration_s`;
-/// `time_at` answers for a fraction strictly inside.
+/// Time at which a decelerating pulse has reduced the speed by `speed_m_s` of the `whole_m_s` over `duration_s`;
+/// `time_at` answers for fractions strictly between 0 and 1.
 fn within(whole_m_s: f64, duration_s: f64, speed_m_s: f64, time_at: impl Fn(f64) -> f64) -> Option<f64> {
     let tolerance_m_s = SPEED_TOLERANCE * (whole_m_s.abs() + speed_m_s);
     if whole_m_s <= 0.0 || speed_m_s > whole_m_s + tolerance_m_s {
@@ -42,7 +43,7 @@ fn within(whole_m_s: f64, duration_s: f64, speed_m_s: f64, time_at: impl Fn(f64)
     }
 }
 
-/// u in [0, 2π] with u − sin u = `phase`, by bisection until the interval has no number left inside.
+/// u in [0, 2π] with u − sin u = `phase`, by bisection to the last bit.
 fn haversine_phase(phase: f64) -> f64 {
     let (mut low, mut high) = (0.0, TAU);
     loop {
@@ -58,7 +59,7 @@ fn haversine_phase(phase: f64) -> f64 {
     }
 }
 
-/// The first crossing on straight lines, ramp by ramp.
+/// First crossing on straight lines, ramp by ramp.
 fn on_ramps(ramps: &[Ramp], speed_m_s: f64) -> Option<f64> {
     let taken_m_s: f64 = ramps.iter().map(|ramp| 0.5 * (ramp.first_m_s2 + ramp.last_m_s2).abs() * ramp.length_s).sum();
     let tolerance_m_s = SPEED_TOLERANCE * (taken_m_s + speed_m_s);
@@ -71,7 +72,7 @@ fn on_ramps(ramps: &[Ramp], speed_m_s: f64) -> Option<f64> {
     })
 }
 
-/// First σ in [0, length] at which the ramp has taken `left_m_s` (zero or more), and would take more.
+/// First σ in [0, length] at which the ramp has reduced the speed by `left_m_s` (zero or more) and still decelerates.
 fn on_ramp(ramp: &Ramp, left_m_s: f64) -> Option<f64> {
     let (first, slope) = (ramp.first_m_s2, ramp.slope_m_s3());
     let since_s = if left_m_s <= 0.0 {

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use super::super::cursor::PathCursor;
 use occupant_units::trig;
 
-/// Deceleration, speed lost and distance lost at one time.
+/// Deceleration, loss of speed and loss of distance at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Loss {
     /// Deceleration a, m/s²; negative where the vehicle is accelerated.
@@ -19,14 +19,14 @@ pub(super) struct Loss {
     pub distance_m: f64,
 }
 
-/// A stretch of straight-line deceleration: a = a₀ + slope·σ, σ from its start.
+/// Interval of linear deceleration: a = a₀ + slope·σ, σ from its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ramp {
     pub start_s: f64,
     pub length_s: f64,
     pub first_m_s2: f64,
     pub last_m_s2: f64,
-    /// Speed and distance lost before it.
+    /// Losses of speed and distance before it.
     pub speed_before_m_s: f64,
     pub distance_before_m: f64,
 }
@@ -87,7 +87,7 @@ impl Profile {
         }
     }
 
-    /// The deceleration of largest size, with its sign, m/s².
+    /// Deceleration of largest magnitude, with its sign, m/s².
     pub(crate) fn peak_m_s2(&self) -> f64 {
         match self {
             Profile::HalfSine { peak_m_s2, .. } | Profile::Haversine { peak_m_s2, .. } => *peak_m_s2,
@@ -98,8 +98,8 @@ impl Profile {
         }
     }
 
-    /// The largest speed gained at the end of a ramp between `from_s` and `until_s`, m/s; zero where there is none, and
-    /// for the sines, which never both give and take.
+    /// Largest gain of speed at the end of a ramp between `from_s` and `until_s`, m/s; zero without any, and for the
+    /// sines, which have one sign.
     pub(crate) fn greatest_gain_m_s(&self, from_s: f64, until_s: f64) -> f64 {
         let Profile::Ramps(ramps) = self else {
             return 0.0;
@@ -111,7 +111,7 @@ impl Profile {
             .fold(0.0, f64::max)
     }
 
-    /// Loss at τ = `since_s`: nothing before the pulse, and the speed lost stays lost after it.
+    /// Loss at τ = `since_s`: zero before the pulse; after it the loss of speed is constant.
     pub(crate) fn loss(&self, since_s: f64, cursor: &mut PathCursor) -> Loss {
         let duration_s = self.duration_s();
         if since_s < 0.0 {

@@ -6,7 +6,7 @@ use super::super::cursor::PathCursor;
 use super::super::problem::{PathProblem, check_row, expect_finite};
 use super::profile::Profile;
 
-/// How strong a pulse is; negative for a pulse that accelerates the vehicle in its direction of travel.
+/// Strength of a pulse; negative for a pulse that accelerates the vehicle in its direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
     /// Greatest deceleration, m/s².
@@ -29,30 +29,30 @@ pub struct DecelerationPoint {
 pub enum PulseShape {
     /// a = P sin(πτ/T); Δv = 2PT/π.
     HalfSine {
-        /// How strong.
+        /// Strength.
         strength: Strength,
         /// T, s.
         duration_s: f64,
     },
     /// a = P sin²(πτ/T); Δv = PT/2.
     Haversine {
-        /// How strong.
+        /// Strength.
         strength: Strength,
         /// T, s.
         duration_s: f64,
     },
-    /// Up in a straight line and down in another; Δv = PT/2.
+    /// Linear rise and linear fall; Δv = PT/2.
     Triangle {
-        /// How strong.
+        /// Strength.
         strength: Strength,
         /// T, s.
         duration_s: f64,
-        /// When the peak is reached, as a fraction of T, from 0 to 1.
+        /// Time of the peak as a fraction of T, 0 to 1.
         peak_fraction: f64,
     },
-    /// Up, level, down; Δv = P(rise + 2 plateau + fall)/2.
+    /// Linear rise, plateau, linear fall; Δv = P(rise + 2 plateau + fall)/2.
     Trapezoid {
-        /// How strong.
+        /// Strength.
         strength: Strength,
         /// Time to the plateau, s.
         rise_s: f64,
@@ -63,7 +63,7 @@ pub enum PulseShape {
     },
     /// Constant; Δv = PT.
     Square {
-        /// How strong.
+        /// Strength.
         strength: Strength,
         /// T, s.
         duration_s: f64,
@@ -76,7 +76,7 @@ pub enum PulseShape {
 }
 
 impl PulseShape {
-    /// When the deceleration begins after the pulse's start, s: zero but for a table whose first point is later.
+    /// Start of the deceleration after the pulse's start, s: zero except for a table whose first point is later.
     pub(super) fn delay_s(&self) -> f64 {
         match self {
             PulseShape::Tabulated { points } => points.first().map_or(0.0, |point| point.time_s),
@@ -180,7 +180,7 @@ impl Strength {
     }
 }
 
-/// Up, level, down; any of the three may be missing.
+/// Rise, plateau, fall; any of the three may be missing.
 fn trapezoid(strength: Strength, rise_s: f64, plateau_s: f64, fall_s: f64) -> Profile {
     // P = 2Δv/(r + 2p + f)
     let peak = strength.peak_m_s2(0.5 * (rise_s + 2.0 * plateau_s + fall_s));

@@ -2,7 +2,7 @@
 
 use crate::vehicle::problem::PathProblem;
 
-/// Samples at rest: those before the first number, and those from the second on.
+/// Samples at rest: those before the first index, and those from the second on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Baseline {
     first: usize,
@@ -35,7 +35,7 @@ impl Baseline {
         Ok(Baseline { first, last: Some(last) })
     }
 
-    /// Takes away what samples read at rest beyond what they should; nothing of those at other times than it was made of.
+    /// Subtracts the zero errors of the samples at rest; samples at other times are unchanged.
     pub fn take(&self, time_s: &[f64], samples: &mut [f64], should_read: f64) {
         let count = time_s.len();
         if samples.len() != count || self.first > count || self.last.is_some_and(|last| last >= count) {

@@ -12,7 +12,7 @@ use crash_measures::signal::{Interpolant, Interpolation};
 
 /// Longest interval of the integration, s.
 const LONGEST_S: f64 = 1e-3;
-/// Most intervals of the integration between two points of the record.
+/// Largest number of intervals of the integration between two points of the record.
 const MOST_PARTS: f64 = 1e4;
 
 /// The readings from `start_s` on. The record has been checked.
@@ -48,7 +48,7 @@ pub(super) fn read<'r>(record: &'r DeltaVRecord, start_s: f64) -> Result<Reading
     })
 }
 
-/// Times of the nodes: `start_s`, the later points of the record, and between them as many as keep intervals short.
+/// Times of the nodes: `start_s`, the later points of the record, and as many between as keep the intervals short.
 fn nodes(stations_s: &[f64], start_s: f64) -> Vec<f64> {
     let mut nodes = vec![start_s];
     for &end_s in stations_s.iter().filter(|&&t| t > start_s) {

@@ -7,7 +7,7 @@ use super::{Baseline, SensorDefinition, SensorGravity, delta_v};
 use crate::vehicle::problem::PathProblem;
 use crash_measures::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc, uniform_interval};
 
-/// Readings at the nodes of the integration, in vehicle axes. Rates are straight lines between nodes, accelerations
+/// Readings at the nodes of the integration, in vehicle axes. Rates are linear between nodes, accelerations are
 /// parabolas through both ends and the middle.
 pub(super) struct Readings {
     /// Times of the nodes, s.
@@ -18,7 +18,7 @@ pub(super) struct Readings {
     pub middle_m_s2: Vec<Vector3<f64>>,
     /// Rates at the nodes, rad/s.
     pub rate_rad_s: Vec<Vector3<f64>>,
-    /// Which accelerations were recorded.
+    /// Presence of the accelerations in the record.
     pub present: [bool; 3],
 }
 
@@ -53,7 +53,7 @@ pub(super) fn read(definition: &SensorDefinition) -> Result<Readings, Vec<PathPr
     Ok(readings)
 }
 
-/// When the path starts: inside the record, with a sample after it.
+/// Start of the path: within the record, with a sample after it.
 fn start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -> f64 {
     let time_s = definition.record.time_s();
     let (Some(&first_s), Some(&last_s)) = (time_s.first(), time_s.last()) else {
@@ -67,8 +67,8 @@ fn start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -> f64 
     start_s
 }
 
-/// Takes the zero errors away: what each channel reads on average over the rest at the beginning, less what it should
-/// read there.
+/// Subtracts the zero errors: the mean reading of each channel over the rest at the beginning, less the true value
+/// there.
 fn take_baseline(definition: &SensorDefinition, record: &mut AccelerationRecord) -> Result<(), PathProblem> {
     let Some(baseline_s) = definition.baseline_s else {
         return Ok(());
@@ -105,7 +105,7 @@ fn filter(record: &mut AccelerationRecord, class: ChannelClass) -> Result<(), Ve
     Ok(())
 }
 
-/// What a filter's complaint means for a path.
+/// Problem of a path from a filter's error.
 fn problem_of(error: &SignalError, quantity: &'static str) -> PathProblem {
     match *error {
         SignalError::NotUniform { index, found_s, expected_s } => {
@@ -126,7 +126,7 @@ fn problem_of(error: &SignalError, quantity: &'static str) -> PathProblem {
     }
 }
 
-/// The record from `start_s` on; the sample there lies on the straight line between its neighbours.
+/// The record from `start_s` on; the sample there is interpolated linearly.
 fn cut(record: &AccelerationRecord, start_s: f64) -> Readings {
     let after = record.time_s.partition_point(|&t| t <= start_s);
     let before = after - 1;
@@ -147,7 +147,7 @@ fn cut(record: &AccelerationRecord, start_s: f64) -> Readings {
     }
 }
 
-/// Sample `i` of three channels; those that are not there are zero.
+/// Sample `i` of three channels; missing channels are zero.
 fn triple(channels: &[Option<Vec<f64>>; 3], i: usize) -> Vector3<f64> {
     Vector3::from_fn(|axis, _| channels[axis].as_ref().map_or(0.0, |samples| samples[i]))
 }

@@ -4,10 +4,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::vehicle::problem::{PathProblem, check_row};
 
-/// What was recorded.
+/// Content of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SensorRecord {
-    /// Accelerations and turning rates.
+    /// Accelerations and angular rates.
     Accelerations(AccelerationRecord),
     /// Velocity changes, as event data recorders keep them.
     DeltaV(DeltaVRecord),
@@ -27,12 +27,12 @@ pub struct AccelerationRecord {
     pub rate_rad_s: [Option<Vec<f64>>; 3],
 }
 
-/// Velocity changes along the vehicle's axes since any instant, and the yaw rate. A channel that is not there is zero.
+/// Velocity changes along the vehicle's axes from any instant, and the yaw rate. Missing channels are zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeltaVRecord {
     /// Times, increasing, s.
     pub time_s: Vec<f64>,
-    /// ∫a_x dt, m/s: negative for a vehicle that is slowed.
+    /// ∫a_x dt, m/s: negative for a decelerated vehicle.
     pub longitudinal_m_s: Option<Vec<f64>>,
     /// ∫a_y dt, to the right, m/s.
     pub lateral_m_s: Option<Vec<f64>>,
@@ -53,7 +53,7 @@ impl SensorRecord {
         }
     }
 
-    /// Names and samples of the channels that are there.
+    /// Names and samples of the present channels.
     pub fn channels(&self) -> Vec<(&'static str, &[f64])> {
         let all: Vec<(&'static str, &Option<Vec<f64>>)> = match self {
             SensorRecord::Accelerations(record) => ACCELERATIONS
@@ -69,7 +69,7 @@ impl SensorRecord {
         there.filter_map(|(name, channel)| Some((name, channel.as_deref()?))).collect()
     }
 
-    /// Everything that is wrong with the samples, in their order.
+    /// All problems of the samples, in their order.
     pub(super) fn problems(&self) -> Vec<PathProblem> {
         let (time_s, channels) = (self.time_s(), self.channels());
         let mut problems = Vec::new();
@@ -98,8 +98,8 @@ impl SensorRecord {
 /// The largest magnitude of a sample; sums and products of such numbers stay finite.
 const LARGEST: f64 = 1e60;
 
-/// Adds a problem for every interval in which the vehicle turns by more than a quarter turn: straight lines between
-/// such samples say little of the turning.
+/// Adds a problem for every interval in which the vehicle rotates by more than 90°: linear interpolation between such
+/// samples is meaningless.
 pub(super) fn check_turning(time_s: &[f64], rate_norms_rad_s: &[f64], problems: &mut Vec<PathProblem>) {
     for station in 1..time_s.len() {
         let mean_rad_s = 0.5 * (rate_norms_rad_s[station - 1] + rate_norms_rad_s[station]);

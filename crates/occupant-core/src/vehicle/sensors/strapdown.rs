@@ -17,10 +17,10 @@ use super::{SensorDefinition, SensorGravity};
 use crate::vehicle::attitude::{Attitude, rotation_by};
 use crate::vehicle::problem::PathProblem;
 
-/// The motion of the sensors from one node to the next, in vehicle-space axes.
+/// Motion of the sensors from one node to the next, in vehicle-space axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
-    /// When it starts, s.
+    /// Start, s.
     pub start_s: f64,
     /// Roll, pitch and yaw there, unwrapped.
     pub attitude: Attitude,
@@ -130,13 +130,13 @@ pub(super) fn integrate(
     Ok((pieces, attitude))
 }
 
-/// What turns a reading into an acceleration in vehicle-space axes.
+/// Conversion of readings to accelerations in vehicle-space axes.
 struct Field {
     present: [bool; 3],
     strength: f64,
-    /// Gravity that the readings hold at every instant.
+    /// Gravity contained in the readings at every instant.
     gravity_m_s2: Vector3<f64>,
-    /// What was taken from them once and for all, vehicle axes.
+    /// Constant subtracted by zeroing, vehicle axes.
     zeroed_m_s2: Vector3<f64>,
 }
 
@@ -152,7 +152,7 @@ impl Field {
         Field { present: readings.present, strength: start.strength, gravity_m_s2, zeroed_m_s2 }
     }
 
-    /// a = s A (f − f₀ + Aᵀ g), of the axes that were recorded; f₀ is what zeroing took away, s the strength.
+    /// a = s A (f − f₀ + Aᵀ g), of the recorded axes; f₀ was subtracted by zeroing, s is the strength.
     fn acceleration(&self, rotation: &Matrix3<f64>, reading_m_s2: Vector3<f64>) -> Vector3<f64> {
         let mut along = reading_m_s2 - self.zeroed_m_s2 + rotation.tr_mul(&self.gravity_m_s2);
         for axis in 0..3 {
@@ -169,7 +169,7 @@ fn parabola(first: Vector3<f64>, middle: Vector3<f64>, last: Vector3<f64>, h_s: 
     [first, (middle * 4.0 - first * 3.0 - last) / h_s, (first - middle * 2.0 + last) * (2.0 / h_s / h_s)]
 }
 
-/// A product of rotations without what rounding has added: R ← ½ R (3 − RᵀR).
+/// Product of rotations, orthogonalized against rounding: R ← ½ R (3 − RᵀR).
 fn orthogonal(rotation: Matrix3<f64>) -> Matrix3<f64> {
     rotation * (Matrix3::identity() * 3.0 - rotation.tr_mul(&rotation)) * 0.5
 }

@@ -14,7 +14,7 @@ fn about(axis: usize, angle: f64) -> Matrix3<f64> {
     matrix
 }
 
-/// A random attitude; every third one stands within a milliradian of nose up or nose down.
+/// A random attitude; every third is within a milliradian of nose up or nose down.
 fn attitude(seeded: &mut Seeded, number: usize) -> Attitude {
     let mut angles = seeded.vector(-PI, PI);
     angles.y = match number % 3 {

@@ -27,8 +27,8 @@ fn at(path: &PulsePath, t_s: f64) -> FrameMotion {
     path.motion(t_s, &mut PathCursor::default())
 }
 
-/// Shapes of 0.1 s with the given strength, and the fraction of Δv·T that each takes from the distance at constant speed
-/// (the first moment of the deceleration).
+/// Shapes of 0.1 s with the given strength, and the fraction of Δv·T by which each shortens the distance at constant
+/// speed (the first moment of the deceleration).
 fn shapes(strength: Strength) -> Vec<(PulseShape, f64)> {
     let duration_s = 0.1;
     let trapezoid = PulseShape::Trapezoid { strength, rise_s: 0.02, plateau_s: 0.05, fall_s: 0.03 };

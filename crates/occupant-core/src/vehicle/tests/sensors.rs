@@ -141,7 +141,7 @@ fn zeroed_sensors_feel_gravity_come_in_as_the_vehicle_rolls() {
     assert_below("roll", (end.attitude.roll_rad - 1.0).abs(), 1e-12);
 }
 
-/// Rz(σt) Ry(β) Rz(−σt): an axis that draws a cone, and the vehicle does not spin about it.
+/// Rz(σt) Ry(β) Rz(−σt): coning motion without spin.
 fn cone(half_angle: f64, sigma: f64, t: f64) -> Matrix3<f64> {
     let about_z = |angle: f64| rotation(Vector3::z() * angle);
     about_z(sigma * t) * rotation(Vector3::y() * half_angle) * about_z(-sigma * t)
@@ -176,7 +176,7 @@ fn coning_does_not_drift() {
     assert!(coarse / fine > 3.9, "order: {coarse:e} {fine:e}");
 }
 
-/// A smooth tumbling motion: place and its derivatives, attitude with rates.
+/// A smooth tumbling motion: position and its derivatives, attitude with rates.
 fn wild(seed: u64, t: f64) -> (Vector3<f64>, Vector3<f64>, Vector3<f64>, Attitude) {
     let mut seeded = Seeded(seed);
     let mut waves = |size: f64| {

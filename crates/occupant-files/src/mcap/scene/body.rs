@@ -13,18 +13,18 @@ use super::{Color, entity};
 use crate::mcap::transforms::FrameNames;
 use crate::mcap::wire::Wire;
 
-/// Drawn width over that of equal inertia.
+/// Drawn width relative to the width of equal inertia.
 const SLIM: f64 = 0.8;
-/// The neck over the width of head and neck.
+/// Width of the neck relative to head and neck.
 const NECK: f64 = 0.55;
-/// Length of the drawn neck over that of head and neck.
+/// Length of the drawn neck relative to head and neck.
 const NECK_LENGTH: f64 = 0.6;
 const SKIN: Color = Color(0.85, 0.65, 0.52, 1.0);
 const SHIRT: Color = Color(0.30, 0.42, 0.58, 1.0);
 const TROUSERS: Color = Color(0.25, 0.27, 0.33, 1.0);
 const SPHERE: Color = Color(0.95, 0.80, 0.30, 0.35);
 
-/// Limbs and trunk, one entity for each segment.
+/// Limbs and trunk, one entity per segment.
 pub fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
     for segment in body.tree.segments() {
         entity(wire, 0, frames.of(segment), body.tree[segment].name, |w| {
@@ -33,7 +33,7 @@ pub fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
     }
 }
 
-/// Contact spheres, one entity for each.
+/// Contact spheres, one entity per sphere.
 pub fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
     for (i, sphere) in body.spheres.iter().enumerate() {
         let centre = sphere_centre_m(body, sphere);
@@ -80,7 +80,7 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     }
 }
 
-/// The bar that carries shoulders or hips, if the segment carries both.
+/// The bar between shoulders or hips, if the segment carries both.
 fn girdle(wire: &mut Wire, body: &Body, segment: Segment, limbs: Pair<Option<Limb>>, color: Color) {
     let (Some(left), Some(right)) = (limbs.left, limbs.right) else { return };
     if [left, right].iter().all(|limb| body.tree.carries(segment, limb.upper)) {
@@ -89,7 +89,7 @@ fn girdle(wire: &mut Wire, body: &Body, segment: Segment, limbs: Pair<Option<Lim
     }
 }
 
-/// A bar with round ends.
+/// A bar with rounded ends.
 fn bar(wire: &mut Wire, ends: [Vector3<f64>; 2], radius_m: f64, color: Color) {
     let along = ends[0] - ends[1];
     let turn = UnitQuaternion::rotation_between(&Vector3::z(), &along).unwrap_or_default();
@@ -118,7 +118,7 @@ pub fn sphere_centre_m(body: &Body, sphere: &ContactSphere) -> Vector3<f64> {
     sphere.centre_from_lower_end_m.coords - body.segment(sphere.segment).cg_m()
 }
 
-/// What a part of the body wears.
+/// Clothing of a part of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
     /// Head, neck, forearms, hands.
@@ -130,7 +130,7 @@ pub enum Tone {
 }
 
 impl Tone {
-    /// The part that a segment is of.
+    /// Clothing of a segment's body part.
     pub fn of(tree: &Tree, segment: Segment) -> Self {
         let marks = tree.landmarks_at(segment);
         if Some(segment) == marks.pelvis || marks.legs().any(|leg| tree.is_of(segment, &leg)) {

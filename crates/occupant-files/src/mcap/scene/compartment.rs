@@ -14,19 +14,19 @@ use crate::mcap::wire::Wire;
 
 /// Opacity of the plates.
 const OPACITY: f64 = 0.3;
-/// Half side of the square that stands for an unbounded plane, m.
+/// Half side of the square drawn for an unbounded plane, m.
 const PATCH_M: f64 = 2.5;
-/// Corners of the polygon that represents a disc.
+/// Number of corners of the polygon drawn for a disc.
 const DISC_CORNERS: usize = 48;
 const EDGE_M: f64 = 0.006;
-/// The road and all else that is drawn alone: by the last word of its name, or its first.
+/// Colours of road and other scenery, by the last or the first word of its name.
 const SCENERY: [(&str, Color); 3] = [
     ("marks", Color(0.12, 0.12, 0.12, 0.8)),
     ("barrier", Color(0.45, 0.47, 0.50, 0.8)),
     ("outside", Color(0.25, 0.42, 0.62, 0.25)),
 ];
 const ROAD: Color = Color(0.62, 0.61, 0.57, 0.6);
-/// Colours of the materials, in their order, again from the first when they run out.
+/// Colours of the materials in order, repeated if there are more.
 const PALETTE: [Color; 8] = [
     Color(0.35, 0.55, 0.75, OPACITY),
     Color(0.75, 0.60, 0.40, OPACITY),
@@ -38,7 +38,7 @@ const PALETTE: [Color; 8] = [
     Color(0.50, 0.70, 0.65, OPACITY),
 ];
 
-/// One entity for each surface, then for each solid, then for what is drawn alone.
+/// One entity per surface, per solid, then per scenery object.
 pub fn write(wire: &mut Wire, model: &Model) {
     let setup = model.setup();
     let surfaces = setup.surfaces.iter().zip(model.faces());
@@ -57,18 +57,18 @@ pub fn write(wire: &mut Wire, model: &Model) {
     }
 }
 
-/// The colour of what is drawn and touches nothing, by its name.
+/// Colour of scenery, by its name.
 pub fn scenery_color(name: &str) -> Color {
     let is_it = |word: &str| name.ends_with(word) || name.starts_with(word);
     SCENERY.into_iter().find(|(word, _)| is_it(word)).map_or(ROAD, |(_, color)| color)
 }
 
-/// The colour of a material, by its place among them.
+/// Colour of a material, by its index.
 pub fn color_of(material: usize) -> Color {
     PALETTE[material % PALETTE.len()]
 }
 
-/// The viewer's name of a surface's frame.
+/// Name of a surface's frame in the viewer.
 pub fn frame_name(model: &Model, frame: Frame) -> String {
     match frame {
         Frame::Vehicle => VEHICLE_FRAME.to_owned(),
@@ -94,7 +94,7 @@ pub fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
     }
 }
 
-/// A square of the plane about a point of it, for a plane without bounds.
+/// A square of an unbounded plane around a point.
 pub fn square_m(face: &FlatFace, about_m: Point3<f64>, half_m: f64) -> Vec<Point3<f64>> {
     let (u, v) = face.plane_axes();
     [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(a, b)| about_m + (u * a + v * b) * half_m).to_vec()

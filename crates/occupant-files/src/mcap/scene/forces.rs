@@ -14,7 +14,7 @@ const DIAMETER_M: f64 = 0.015;
 const CONTACT: Color = Color(0.90, 0.15, 0.15, 1.0);
 const OTHER: Color = Color(0.95, 0.55, 0.10, 1.0);
 
-/// A message with one entity for each force, vehicle axes, drawn with `m_per_n`.
+/// A message with one arrow per force, vehicle axes, `m_per_n` long.
 pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, m_per_n: f64) {
     let (sample, setup) = (&sample.seen_by_vehicle(), sample.model.setup());
     let show = |w: &mut Wire, id: &dyn Fn() -> String, point_m: Point3<f64>, force_n: Vector3<f64>, color| {

@@ -12,7 +12,7 @@ const INK: Color = Color(0.15, 0.15, 0.2, 1.0);
 const HEIGHT_M: f64 = 0.04;
 const ARROW_M: f64 = 0.08;
 
-/// One entity for each surface, then for each solid.
+/// One label per surface, then per solid.
 pub fn write(wire: &mut Wire, model: &Model) {
     for (surface, face) in model.setup().surfaces.iter().zip(model.faces()) {
         let middle = middle_m(&corners_m(face));

@@ -13,7 +13,7 @@ const SECTION: Color = Color(0.55, 0.50, 0.70, 0.25);
 const EDGE_M: f64 = 0.004;
 const SLACK: Color = Color(0.45, 0.45, 0.45, 1.0);
 
-/// A message with one entity for each line and each section, vehicle axes.
+/// A message with one entity per line and per section, vehicle axes.
 pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
     replace(wire, ns, |w| {
         for drawn in sample.seen_by_vehicle().lines() {

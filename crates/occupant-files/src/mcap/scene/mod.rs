@@ -28,7 +28,7 @@ impl Color {
     }
 }
 
-/// A message that replaces all that the topic showed before.
+/// A message that replaces everything shown on the topic.
 pub fn replace(wire: &mut Wire, ns: u64, content: impl FnOnce(&mut Wire)) {
     const ALL: u64 = 1;
     wire.message(1, |w| {

@@ -50,7 +50,7 @@ pub fn arrow(wire: &mut Wire, start_m: Vector3<f64>, arrow_m: Vector3<f64>, diam
     });
 }
 
-/// Whether a line ends where it began.
+/// Whether a line is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closing {
     /// `LINE_STRIP`.

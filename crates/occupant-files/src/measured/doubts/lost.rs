@@ -6,16 +6,16 @@ use placed_text::number;
 use super::super::motion::{Column, Motion, MotionKind};
 use super::is_rate;
 
-/// No sensor of a vehicle reads more: accelerations, m/s²; rates, rad/s; velocity changes, m/s.
+/// Largest readings of a vehicle's sensors: accelerations, m/s²; rates, rad/s; velocity changes, m/s.
 const MOST: [f64; 3] = [2000.0 * G, 200.0, 100.0];
-/// So many samples in a row with one value are said.
+/// Number of consecutive equal samples that is reported.
 const HELD: usize = 8;
-/// A column with more equal neighbours than this part tells nothing of held values: it is rounded, or drawn.
+/// Largest fraction of equal neighbours for a test of held values; with more the column is rounded or drawn.
 const MOSTLY: f64 = 0.05;
-/// A jump at the end of held values is more than so many usual steps.
+/// Least jump at the end of held values, in usual steps.
 const JUMP: f64 = 5.0;
 
-/// A value that no sensor reads.
+/// Reports a value beyond the range of sensors.
 pub(super) fn absurd(motion: &Motion, column: &Column) -> Option<String> {
     let most = match motion.kind {
         MotionKind::Places => return None,
@@ -38,7 +38,7 @@ pub(super) fn absurd(motion: &Motion, column: &Column) -> Option<String> {
     ))
 }
 
-/// The longest run of equal values within a column: the first and the last of them.
+/// First and last index of the longest run of equal values.
 fn longest(values: &[f64]) -> Option<(usize, usize)> {
     let mut best: Option<(usize, usize)> = None;
     let mut from = 0;
@@ -56,7 +56,7 @@ fn longest(values: &[f64]) -> Option<(usize, usize)> {
     best
 }
 
-/// Whether a column holds one value from `a` to `b` while it is alive elsewhere, and jumps where it continues.
+/// Whether a column holds one value from `a` to `b`, varies elsewhere, and jumps where it continues.
 fn is_held(values: &[f64], (a, b): (usize, usize)) -> bool {
     let mut steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let equal = steps.iter().filter(|step| **step == 0.0).count() - (b - a);
@@ -67,7 +67,7 @@ fn is_held(values: &[f64], (a, b): (usize, usize)) -> bool {
     (equal as f64) < MOSTLY * values.len() as f64 && jump > JUMP * usual
 }
 
-/// Values that a recorder held, or zeros that it wrote, where samples were lost.
+/// Reports values held by a recorder, or zeros, where samples were lost.
 pub(super) fn held(motion: &Motion) -> Option<String> {
     let all = motion.columns.iter().filter_map(|column| Some((column, longest(&column.values)?)));
     let all: Vec<_> = all.filter(|(column, run)| is_held(&column.values, *run)).collect();

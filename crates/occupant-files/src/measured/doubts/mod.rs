@@ -18,25 +18,25 @@ use slips::slip;
 use units::{rough, slow, weak, wrong_unit};
 use zero::zero_errors;
 
-/// What else is known of the vehicle.
+/// What is known of the vehicle besides the record.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Known {
-    /// Time of first contact, s, if it was told.
+    /// Time of first contact, s, if given.
     pub contact_s: Option<f64>,
-    /// Speed at first contact, m/s, if it was told.
+    /// Speed at first contact, m/s, if given.
     pub speed_m_s: Option<f64>,
-    /// Whether zero errors are taken away: at the beginning, at the end.
+    /// Whether zero offsets are removed: at the start, at the end.
     pub baseline: [bool; 2],
-    /// Frequency from which on places are smoothed, Hz.
+    /// Cutoff frequency of the smoothing of positions, Hz.
     pub smoothed_hz: Option<f64>,
 }
 
-/// A gain of speed that is said, m/s.
+/// Least gain of speed that is reported, m/s.
 const GAIN_M_S: f64 = 3.0;
-/// Shortest rest whose mean says something, and the longest that is looked at, s.
+/// Shortest and longest rest used for a mean, s.
 const REST_S: [f64; 2] = [0.01, 0.1];
 
-/// All that speaks against a record.
+/// All doubts about a record.
 pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
     // what marks a missing value says nothing of units and signs
     let (mad, sound): (Vec<&Column>, Vec<&Column>) =
@@ -100,7 +100,7 @@ fn integral(values: &[f64], time_s: &[f64]) -> f64 {
     time_s.windows(2).zip(values.windows(2)).map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1])).sum()
 }
 
-/// A vehicle that becomes faster.
+/// Reports a vehicle that gains speed.
 fn struck_from_behind(ax: &[f64], time_s: &[f64]) -> Option<String> {
     let gain = integral(ax, time_s);
     (gain > GAIN_M_S).then(|| {
@@ -115,7 +115,7 @@ fn mean(part: &[f64]) -> f64 {
     part.iter().sum::<f64>() / part.len() as f64
 }
 
-/// A velocity change whose values are all gains.
+/// Reports a velocity change that only increases.
 fn gains_speed(changes: &[f64]) -> Option<String> {
     let most = changes.iter().fold(0.0_f64, |most, v| if v.abs() > most.abs() { *v } else { most });
     let least = changes.iter().copied().fold(0.0, f64::min);
@@ -143,7 +143,7 @@ mod tests {
 
     use super::*;
 
-    /// Name, unit, factor and course of a column.
+    /// Name, unit, factor and values of a column.
     type Given<'a> = (&'static str, &'a str, f64, &'a dyn Fn(f64) -> f64);
 
     fn motion(kind: MotionKind, dt_s: f64, columns: &[Given<'_>]) -> Motion {

@@ -7,14 +7,14 @@ use placed_text::number;
 use super::super::motion::{Column, Motion, MotionKind};
 use super::Known;
 
-/// Noise of rounding that is said, m/s².
+/// Least rounding noise that is reported, m/s².
 const NOISE_M_S2: f64 = 0.1 * G;
-/// A vehicle faster than this, m/s, is doubted that goes by more than this beside its heading, deg.
+/// Speed, m/s, and angle to the heading, deg, above which a vehicle is reported as moving sideways.
 const ACROSS: (f64, f64) = (3.0, 30.0);
-/// Frequencies that are proposed, Hz.
+/// Frequencies that are suggested, Hz.
 const CUTOFFS_HZ: [f64; 12] = [100.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 5.0];
 
-/// One time that is out of step, where all others are in step.
+/// Reports a single irregular time among regular ones.
 pub(super) fn late(motion: &Motion) -> Option<String> {
     let usual_s = usual_interval(&motion.time_s);
     let odd = |pair: &[f64]| (pair[1] - pair[0] - usual_s).abs() > 0.02 * usual_s;
@@ -25,7 +25,7 @@ pub(super) fn late(motion: &Motion) -> Option<String> {
     })
 }
 
-/// Places and angles that are rounded so that their second derivatives are mostly that.
+/// Reports positions and angles rounded so coarsely that their second derivatives are mostly rounding noise.
 pub(super) fn rounded(motion: &Motion, known: Known) -> Option<String> {
     let dt_s = usual_interval(&motion.time_s);
     let steps: Vec<Option<f64>> = motion.columns.iter().map(|c| Some(resolution(&c.values)? * c.factor)).collect();
@@ -50,7 +50,7 @@ pub(super) fn rounded(motion: &Motion, known: Known) -> Option<String> {
     ))
 }
 
-/// What the choice of the frequency makes of accelerations: smoothing takes away from peaks, and rounding puts noise in.
+/// Effect of the cutoff frequency on accelerations: smoothing lowers peaks, rounding adds noise.
 pub(super) fn smoothed(motion: &Motion, known: Known) -> Option<String> {
     let hertz = known.smoothed_hz?;
     let accelerations = |column: &Column, hertz: f64| -> Option<Vec<f64>> {
@@ -76,7 +76,7 @@ pub(super) fn smoothed(motion: &Motion, known: Known) -> Option<String> {
     ))
 }
 
-/// What speaks against the places of a scenario's own table that are rounded, in the first unit in which its places are round.
+/// Reports coarse rounding of the positions of a scenario's table, in the first unit in which they are round.
 pub fn rounded_table(path: &VehiclePath) -> Option<String> {
     let VehiclePath::Table(table) = path else { return None };
     let stations = table.stations();
@@ -107,7 +107,7 @@ pub fn rounded_table(path: &VehiclePath) -> Option<String> {
     found.map(|words| words.replace("--filter '", "--set path.filter='"))
 }
 
-/// A yaw that turns against the course.
+/// Reports a yaw angle that turns against the course.
 pub(super) fn turned(motion: &Motion) -> Option<String> {
     let [x, y, yaw] = ["x", "y", "yaw"].map(|name| motion.si(name));
     let (x, y, yaw) = (x?, y?, yaw?);
@@ -127,7 +127,7 @@ pub(super) fn turned(motion: &Motion) -> Option<String> {
     })
 }
 
-/// A vehicle that moves across the way it points, or backwards.
+/// Reports a vehicle that moves across its heading, or backward.
 pub(super) fn across(motion: &Motion) -> Option<String> {
     let (x, y) = (motion.si("x")?, motion.si("y")?);
     let yaw = motion.si("yaw");

@@ -6,33 +6,33 @@ use placed_text::number;
 use super::super::motion::{Column, Motion, MotionKind};
 use super::is_rate;
 
-/// A slip of accelerations that is said, m/s².
+/// Least outlier of accelerations that is reported, m/s².
 const SLIP_M_S2: f64 = 5.0 * G;
-/// What a slip of places makes of accelerations is said from here on, m/s².
+/// Least acceleration caused by an outlier of positions that is reported, m/s².
 const SPIKE_M_S2: f64 = 0.5 * G;
-/// A change of speed within a row that is said, m/s.
+/// Least change of speed within a row that is reported, m/s.
 const KINK_M_S: f64 = 1.0;
-/// By how much a flaw of places must stand out of its surroundings, and how many rows these are to each side.
+/// Least ratio of a flaw of positions to its surroundings, and their length in rows to each side.
 const STANDS_OUT: f64 = 5.0;
 const SURROUNDINGS: usize = 20;
-/// The part of the fourth differences about it that a flaw must explain: of a kink a slip explains 0.952.
+/// Least fraction of the surrounding fourth differences that a flaw explains: an outlier explains 0.952 of a kink.
 const EXPLAINED: f64 = 0.965;
-/// So many fourth differences are looked at about a flaw.
+/// Number of fourth differences examined around a flaw.
 const SPAN: usize = 7;
 
-/// What makes fourth differences of places stand out in a row.
+/// Kinds of flaws in positions, seen in fourth differences.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Flaw {
-    /// One value is off.
+    /// One value is wrong.
     Slip,
-    /// All values from one on are off.
+    /// All values from one on are shifted.
     Step,
-    /// The velocity is another from one row on.
+    /// The velocity changes at a row.
     Kink,
 }
 
-/// Flaws with the fourth differences that one of size 1 makes: a slip, a step, a change of the way from row to row. The flaw's row is the
-/// fifth behind that with which the span begins.
+/// Fourth differences of a flaw of size 1: an outlier, a step, a change of velocity. The flaw's row is the fifth after
+/// the first of the span.
 const PATTERNS: [(Flaw, [f64; SPAN]); 3] = [
     (Flaw::Slip, [0.0, 1.0, -4.0, 6.0, -4.0, 1.0, 0.0]),
     (Flaw::Step, [0.0, 1.0, -3.0, 3.0, -1.0, 0.0, 0.0]),
@@ -46,7 +46,7 @@ struct Found {
     size: f64,
 }
 
-/// A single value far from its neighbours, where no other is.
+/// Reports a single value far from its neighbours.
 pub(super) fn slip(motion: &Motion, column: &Column) -> Option<String> {
     if motion.kind == MotionKind::Places {
         return flaw_of_places(motion, column);
@@ -102,7 +102,7 @@ fn flaw_of_places(motion: &Motion, column: &Column) -> Option<String> {
     }
 }
 
-/// The flaw that stands out most from the fourth differences around it.
+/// The largest flaw relative to the fourth differences around it.
 fn worst(values: &[f64]) -> Option<Found> {
     let fourth: Vec<f64> = values.windows(5).map(|v| v[0] + v[4] - 4.0 * (v[1] + v[3]) + 6.0 * v[2]).collect();
     let spans = (0..fourth.len().saturating_sub(SPAN - 1)).filter_map(|from| {
@@ -115,7 +115,7 @@ fn worst(values: &[f64]) -> Option<Found> {
     spans.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, found)| found)
 }
 
-/// The size of a pattern in a span, the sum of squares that it explains, and that which is left.
+/// Size of a pattern fitted to a span, the sum of squares that it explains, and the rest.
 fn fitted(span: &[f64], pattern: &[f64; SPAN]) -> (f64, f64, f64) {
     let dot: f64 = span.iter().zip(pattern).map(|(a, b)| a * b).sum();
     let square: f64 = pattern.iter().map(|b| b * b).sum();
@@ -124,7 +124,7 @@ fn fitted(span: &[f64], pattern: &[f64; SPAN]) -> (f64, f64, f64) {
     (dot / square, explained, (whole - explained).max(0.0))
 }
 
-/// The root mean square of what stands beside a span; none if that is little.
+/// RMS beside a span; none if it is small.
 fn around(fourth: &[f64], from: usize) -> Option<f64> {
     let before = &fourth[from.saturating_sub(SURROUNDINGS)..from];
     let after = &fourth[from + SPAN..(from + SPAN + SURROUNDINGS).min(fourth.len())];

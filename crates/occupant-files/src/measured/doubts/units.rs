@@ -7,17 +7,17 @@ use super::super::motion::{Column, Motion};
 use super::zero::rest;
 use super::{REST_S, integral, is_rate, mean};
 
-/// No crash of a road vehicle changes its velocity by more, m/s.
+/// Largest velocity change of a road vehicle in a crash, m/s.
 const MOST_CHANGE_M_S: f64 = 45.0;
-/// More turns than a rolling car makes.
+/// Largest number of turns of a rolling car.
 const MOST_TURNS: f64 = 6.0;
-/// No vehicle turns faster, as the mean of 10 ms, rad/s.
+/// Largest angular rate of a vehicle, mean over 10 ms, rad/s.
 const FASTEST_RAD_S: f64 = 20.0;
-/// What tyres alone give, and what a crash goes beyond, m/s²: between them accelerations are doubted that are not in g.
+/// Range of accelerations, between those of tyres and those of crashes, m/s², in which the unit m/s² is doubted.
 const WEAK_M_S2: [f64; 2] = [G, 2.5 * G];
-/// Turns slower than these, rad/s, are doubted beside a velocity change to the side of this, m/s.
+/// Rate, rad/s, below which it is doubted if the lateral velocity change exceeds this, m/s.
 const SLOW: (f64, f64) = (0.1, 3.0);
-/// Rounding of accelerations that is said, m/s².
+/// Least rounding of accelerations that is reported, m/s².
 const ROUGH_M_S2: f64 = 0.5 * G;
 
 pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
@@ -51,7 +51,7 @@ pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
     })
 }
 
-/// The largest magnitude of a mean over 10 ms, in the column's unit.
+/// Largest magnitude of a 10 ms mean, in the column's unit.
 fn strongest(column: &Column, time_s: &[f64]) -> f64 {
     let whole: Vec<f64> = std::iter::once(0.0)
         .chain(time_s.windows(2).zip(column.values.windows(2)).scan(0.0, |sum, (t, v)| {
@@ -66,7 +66,7 @@ fn strongest(column: &Column, time_s: &[f64]) -> f64 {
     (0..time_s.len()).filter_map(mean).fold(0.0, f64::max)
 }
 
-/// Accelerations in m/s² that are those of tyres and hardly more: they may be in g.
+/// Reports accelerations in m/s² as weak as those of tyres: they may be in g.
 pub(super) fn weak(motion: &Motion) -> Option<String> {
     let all: Vec<&Column> = motion.columns.iter().filter(|c| !is_rate(c) && (c.factor - 1.0).abs() < 1e-9).collect();
     let most = all.iter().map(|column| strongest(column, &motion.time_s)).fold(0.0, f64::max);
@@ -79,7 +79,7 @@ pub(super) fn weak(motion: &Motion) -> Option<String> {
     })
 }
 
-/// Rates in deg/s that hardly turn a vehicle that is thrown aside: they may be in rad/s.
+/// Reports rates in deg/s that hardly turn a vehicle with a large lateral velocity change: they may be in rad/s.
 pub(super) fn slow(motion: &Motion) -> Option<String> {
     let all: Vec<&Column> = motion.columns.iter().filter(|c| is_rate(c) && (c.factor - 1.0).abs() > 1e-9).collect();
     let most = all.iter().map(|column| column.factor * strongest(column, &motion.time_s)).fold(0.0, f64::max);
@@ -94,7 +94,7 @@ pub(super) fn slow(motion: &Motion) -> Option<String> {
     })
 }
 
-/// Accelerations that are rounded to whole g or so.
+/// Reports accelerations rounded to about 1 g.
 pub(super) fn rough(motion: &Motion) -> Option<String> {
     let step = |c: &Column| {
         let is_round = |step: &f64| c.values.iter().all(|v| (v / step - (v / step).round()).abs() < 1e-6);

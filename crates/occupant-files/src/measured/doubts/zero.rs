@@ -6,10 +6,10 @@ use placed_text::number;
 use super::super::motion::Motion;
 use super::{Known, REST_S, is_rate, mean};
 
-/// Zero errors that are said: accelerations, m/s²; rates, rad/s.
+/// Least zero offsets that are reported: accelerations, m/s²; rates, rad/s.
 const ZERO: [f64; 2] = [0.05 * G, 0.5 * std::f64::consts::PI / 180.0];
 
-/// Samples before first contact, those of the last tenth of a second at most; without it, those of the first 10 ms.
+/// Samples before first contact, at most the last tenth of a second; if unknown, the first 10 ms.
 pub(super) fn rest(time_s: &[f64], contact_s: Option<f64>) -> Option<[usize; 2]> {
     let first_s = *time_s.first()?;
     let until_s = contact_s.unwrap_or(first_s + REST_S[0]).min(first_s + REST_S[1]);

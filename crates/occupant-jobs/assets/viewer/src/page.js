@@ -64,7 +64,7 @@ function caveats(run, number, several) {
     element("li", { id: caveatName(number, place) }, text),
   );
   const whose = several ? ` of ${run.label}` : "";
-  const words = `Caveats${whose}: figures with ! are not to be quoted without them`;
+  const words = `Caveats${whose}: results with ! should not be quoted without them`;
   return element(
     "section",
     { class: "note caveats", role: "note" },

@@ -13,13 +13,13 @@ use super::problem::Problem;
 use crate::base::names::stays_within;
 use crate::base::{Existing, sha256, write_whole};
 
-/// Letters of a checksum.
+/// Number of characters of a checksum.
 const SUM: usize = 64;
 
-/// The name of the list.
+/// Name of the checksum file.
 pub const SUMS: &str = "SHA256SUMS";
 
-/// The list of a folder, and which of its files are as they were written.
+/// Checksums of a folder, and which of its files are intact.
 #[derive(Debug)]
 pub struct Checksums {
     folder: PathBuf,
@@ -30,12 +30,12 @@ pub struct Checksums {
 #[derive(Debug)]
 struct Listed {
     sum: String,
-    /// Whether the file is as it was written; none if it is not there, or was not looked at.
+    /// Whether the file is intact; none if it is missing or was not checked.
     sound: Option<bool>,
 }
 
 impl Checksums {
-    /// Reads the list of a folder and looks at those of its files whose names `wanted` says.
+    /// Reads the checksums of a folder and verifies the files whose names `wanted` selects.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -69,19 +69,19 @@ impl Checksums {
         parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
     }
 
-    /// Files that are not what was written, and were not made again.
+    /// Damaged files that were not recomputed.
     pub fn damaged(&self) -> Vec<PathBuf> {
         let listed = self.listed();
         let damaged = listed.iter().filter(|(_, file)| file.sound == Some(false));
         damaged.map(|(name, _)| self.folder.join(name)).collect()
     }
 
-    /// Whether a file is there as it was written.
+    /// Whether a file exists and is intact.
     pub fn holds(&self, path: &Path) -> bool {
         path.exists() && self.listed().get(&self.name(path)).is_some_and(|file| file.sound == Some(true))
     }
 
-    /// Lists a file that is complete.
+    /// Adds the checksum of a complete file.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -98,7 +98,7 @@ impl Checksums {
         Ok(())
     }
 
-    /// Puts a damaged file aside, under a name that nobody reads: what it held is computed again.
+    /// Renames a damaged file so that it is ignored; its content will be recomputed.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -112,7 +112,7 @@ impl Checksums {
         Ok(())
     }
 
-    /// Writes the list anew, a line for each file that is there.
+    /// Rewrites the checksum file, one line per existing file.
     ///
     /// # Errors
     /// Files that are damaged still; an error of the operating system.

@@ -2,17 +2,17 @@
 
 use std::ops::Range;
 
-/// A set of samples.
+/// The set of finished samples.
 #[derive(Clone, Debug)]
 pub struct Finished(Vec<bool>);
 
 impl Finished {
-    /// None of `samples`.
+    /// An empty set for `samples` samples.
     pub fn none(samples: u64) -> Self {
         Finished(vec![false; samples as usize])
     }
 
-    /// Adds a sample, if it is one of the study.
+    /// Adds a sample if it belongs to the study.
     pub fn add(&mut self, index: u64) {
         if let Some(finished) = self.0.get_mut(index as usize) {
             *finished = true;
@@ -24,12 +24,12 @@ impl Finished {
         self.0.get(index as usize).is_some_and(|finished| *finished)
     }
 
-    /// How many of a range are finished.
+    /// Number of finished samples in a range.
     pub fn count(&self, range: Range<u64>) -> u64 {
         range.filter(|i| self.has(*i)).count() as u64
     }
 
-    /// Those of a range that are not, as ranges.
+    /// Unfinished samples of a range, as ranges.
     pub fn gaps(&self, range: Range<u64>) -> Vec<Range<u64>> {
         let mut gaps: Vec<Range<u64>> = Vec::new();
         for index in range.filter(|i| !self.has(*i)) {
@@ -42,7 +42,7 @@ impl Finished {
     }
 }
 
-/// Ranges as a reader counts them, `3, 7–12`, at most `most` of them.
+/// Ranges as text, `3, 7–12`, at most `most` of them.
 pub fn ranges_text(ranges: &[Range<u64>], most: usize) -> String {
     let one = |r: &Range<u64>| match r.end - r.start {
         1 => r.start.to_string(),

@@ -29,13 +29,13 @@ const INPUTS: &str = "inputs";
 const JOURNAL: &str = "journal";
 const RUNS: &str = "runs";
 
-/// What a folder holds the results of.
+/// Kind of a result folder.
 #[derive(Debug)]
 pub struct Holds {
-    /// What the folder is called.
+    /// Name of the kind.
     pub word: &'static str,
     manifest: &'static str,
-    /// Files that are written into it, and into its folders those whose names end so.
+    /// Files written into it; in its subfolders those with these extensions.
     results: &'static [&'static str],
     folders: &'static [(&'static str, &'static str)],
 }
@@ -62,24 +62,24 @@ pub struct Folder {
     holds: &'static Holds,
 }
 
-/// A lock that a process holds until it ends, however it ends.
+/// A lock held until the process ends, for whatever reason.
 #[derive(Debug)]
 pub struct Held {
     // the lock lives as long as the file is open; a file system without locks gives none
     _file: File,
-    /// What the file system says that knows no locks.
+    /// Error message of a file system without locks.
     pub unlocked: Option<String>,
-    /// Manifest and copies that were damaged and were written again.
+    /// Manifest and copies that were damaged and rewritten.
     pub mended: Vec<PathBuf>,
 }
 
 impl Folder {
-    /// The folder of a sweep at this place, there or not.
+    /// The folder of a sweep at this path, existing or not.
     pub fn at(path: &Path) -> Self {
         Folder { path: path.to_owned(), holds: SWEEP }
     }
 
-    /// The folder of a fit at this place, there or not.
+    /// The folder of a fit at this path, existing or not.
     pub fn of_fit(path: &Path) -> Self {
         Folder { path: path.to_owned(), holds: FIT }
     }
@@ -88,12 +88,12 @@ impl Folder {
         self.path.join(self.holds.manifest)
     }
 
-    /// What was done, unless the folder was taken away with it.
+    /// The message about what was done, unless the folder was removed meanwhile.
     pub fn still(&self, done: String) -> String {
         if self.manifest_path().exists() { done } else { format!("{} was removed", self.path.display()) }
     }
 
-    /// The file of the rows so far.
+    /// The journal of finished rows.
     pub fn journal(&self) -> PathBuf {
         self.path.join(JOURNAL)
     }
@@ -156,7 +156,7 @@ impl Folder {
         })
     }
 
-    /// Makes the folder that of this sweep, or finds that it is, and takes part `shard` of it.
+    /// Claims the folder for part `shard` of this sweep, new or existing.
     ///
     /// # Errors
     /// It holds something else; another process is at work on it; an error of the operating system.
@@ -188,7 +188,7 @@ impl Folder {
         held.ok_or_else(|| self.busy(format!("computes shard {shard}")))
     }
 
-    /// The right to write the table.
+    /// Lock for writing the table.
     ///
     /// # Errors
     /// Another process has it; an error of the operating system.
@@ -196,7 +196,7 @@ impl Folder {
         self.lock(&self.path.join("table.lock"))?.ok_or_else(|| self.busy("writes the table".to_owned()))
     }
 
-    /// Refuses a folder with tables or runs that are not those of this sweep.
+    /// Refuses a folder with tables or runs of another sweep.
     ///
     /// # Errors
     /// What stands there.
@@ -211,7 +211,7 @@ impl Folder {
         }
     }
 
-    /// Files of results, and their provisional names.
+    /// Result files, including their temporary names.
     fn files(&self) -> Vec<PathBuf> {
         let named = self.holds.results.iter().map(|name| self.path.join(name));
         named.flat_map(|path| [path.clone(), partial_path(&path)]).collect()
@@ -233,7 +233,7 @@ impl Folder {
         }
     }
 
-    /// Waits until no other process is at the door. Where the file system knows no locks there is no door.
+    /// Waits for the short lock for opening the folder. File systems without locks have none.
     fn wait(&self) -> Result<File, Problem> {
         let path = self.path.join(LOCK);
         let file = open_lock(&path)?;
@@ -241,7 +241,7 @@ impl Folder {
         Ok(file)
     }
 
-    /// Files without a manifest are not ours.
+    /// Refuses a folder with files but no manifest.
     fn refuse_other_files(&self) -> Result<(), Problem> {
         if self.manifest_path().exists() {
             return Ok(());
@@ -254,7 +254,7 @@ impl Folder {
         Err(Problem::NotOurs { folder: self.path.clone(), holds: self.holds })
     }
 
-    /// Processes that share the study in another way would compute the same samples.
+    /// Refuses processes that split the study differently, which would compute the same samples twice.
     fn refuse_others(&self, shard: Shard, all: bool) -> Result<(), Problem> {
         let journal = self.journal();
         if !journal.exists() {
@@ -271,7 +271,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Takes a lock, unless another process has it.
+    /// Takes a lock, unless another process holds it.
     fn lock(&self, path: &Path) -> Result<Option<Held>, Problem> {
         let file = open_lock(path)?;
         let unlocked = match file.try_lock() {
@@ -282,14 +282,14 @@ impl Folder {
         Ok(Some(Held { _file: file, unlocked, mended: Vec::new() }))
     }
 
-    /// Writes copies again that are not what was read; which.
+    /// Rewrites damaged copies; which ones.
     fn mend_copies(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<Vec<PathBuf>, Problem> {
         let copies = manifest.texts.iter().map(|text| self.path.join(&text.copy)).zip(texts);
         let changed = copies.filter(|(path, bytes)| fs::read(path).ok().as_ref() != Some(*bytes));
         changed.map(|(path, bytes)| Ok(write_whole(&path, Existing::Replace, bytes)?)).collect()
     }
 
-    /// Copies first, the manifest last: a folder with a manifest is whole.
+    /// Writes copies first and the manifest last: a folder with a manifest is complete.
     fn begin(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<(), Problem> {
         for folder in [self.path.join(INPUTS), self.journal()] {
             fs::create_dir_all(&folder).map_err(Problem::io("create", &folder))?;
@@ -313,7 +313,7 @@ impl Folder {
         }
     }
 
-    /// Removes what a sweep has written, and nothing else.
+    /// Removes the files of a sweep, and nothing else.
     fn clear(&self) -> Result<(), Problem> {
         let mut files = self.files();
         files.push(self.path.join(SUMS));

@@ -23,37 +23,37 @@ use super::row::Row;
 use super::shard::Shard;
 use crate::base::{Failure, FileProblem, is_at};
 
-/// What was written is made safe against a loss of power at least so often.
+/// Interval between syncs to disk.
 const SYNC_EVERY: Duration = Duration::from_secs(10);
-/// So many samples are read at a time.
+/// Number of samples read at a time.
 const AT_ONCE: u64 = 2048;
 
-/// A piece is closed after so many rows or bytes.
+/// Largest number of rows of a journal file.
 const ROWS: usize = 1024;
 const BYTES: usize = 4 << 20;
-/// No piece is larger, bytes; its last row comes on top of the limit.
+/// Size at which a journal file is closed, bytes.
 const LARGEST: u64 = 8 << 20;
-/// No first line is longer, bytes.
+/// Longest first line, bytes.
 const MOST_OF_HEAD: u64 = 1 << 10;
 
-/// First line of a piece.
+/// First line of a journal file.
 #[derive(Serialize, Deserialize)]
 struct Head {
     /// SHA-256 of the manifest.
     rows_of: String,
 }
 
-/// What stands before the checksum of a line, before what it is of, and behind that.
+/// Text before the checksum of a line, between checksum and content, and at the end.
 const FRAME: [&str; 3] = ["{\"crc32\":\"", "\",\"is\":", "}\n"];
 
-/// A line of the journal, with the CRC-32 of what it holds.
+/// A line of the journal, with the CRC-32 of its content.
 fn line_of(holds: &impl Serialize) -> serde_json::Result<String> {
     let [before, between, behind] = FRAME;
     let json = serde_json::to_string(holds)?;
     Ok(format!("{before}{:08x}{between}{json}{behind}", crc32fast::hash(json.as_bytes())))
 }
 
-/// What a line of the journal holds; none if that is not what was written.
+/// Content of a journal line; none if it is damaged.
 fn held_by<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     let [before, between, behind] = FRAME.map(str::as_bytes);
     let (crc, rest) = line.strip_prefix(before)?.split_at_checked(8)?;
@@ -68,7 +68,7 @@ pub struct JournalWriter {
     folder: PathBuf,
     manifest_sha256: String,
     shard: Shard,
-    /// Number of the next piece.
+    /// Number of the next journal file.
     next: u64,
     open: Option<OpenPiece>,
     synced: Instant,
@@ -83,7 +83,7 @@ struct OpenPiece {
 }
 
 impl OpenPiece {
-    /// Appends a line in one write.
+    /// Appends a line in a single write.
     fn append(&mut self, line: &impl Serialize) -> io::Result<()> {
         let line = line_of(line)?;
         self.file.write_all(line.as_bytes())?;
@@ -100,7 +100,7 @@ impl OpenPiece {
 }
 
 impl JournalWriter {
-    /// Begins after the pieces that the shard has. The shard's lock must be held.
+    /// Continues after the existing journal files of the shard, whose lock must be held.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -141,7 +141,7 @@ impl JournalWriter {
         Ok(())
     }
 
-    /// Makes everything safe against a loss of power.
+    /// Syncs everything to disk.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -161,28 +161,28 @@ impl JournalWriter {
     }
 }
 
-/// What journals hold: where the rows of which samples stand. The rows themselves stay on the disk.
+/// Index of the journals: positions of the finished rows, which stay on disk.
 #[derive(Clone, Debug)]
 pub struct Journal {
     manifest_sha256: String,
     samples: u64,
     pieces: Vec<Piece>,
-    /// The samples that are finished.
+    /// The finished samples.
     pub finished: Finished,
-    /// Rows that were cut off: what killed processes had in their hands.
+    /// Number of truncated rows, left by killed processes.
     pub torn: usize,
-    /// The shards that have begun.
+    /// Shards that have started.
     begun: BTreeSet<Shard>,
 }
 
 #[derive(Clone, Debug)]
 struct Piece {
     path: PathBuf,
-    /// From the least to after the largest sample.
+    /// From the smallest sample to one past the largest.
     samples: Range<u64>,
 }
 
-/// Whether some piece of a folder's journal names this manifest.
+/// Whether a journal file of the folder refers to this manifest.
 ///
 /// # Errors
 /// An error of the operating system.
@@ -199,8 +199,7 @@ pub fn is_named_by_rows(folder: &Folder, manifest: &Manifest) -> Result<bool, Pr
 }
 
 impl Journal {
-    /// Reads through the journal of a folder that is claimed. Pieces that are damaged are put aside and given back: their
-    /// samples are not finished.
+    /// Reads the journal of a claimed folder. Damaged files are set aside and returned: their samples are unfinished.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -219,7 +218,7 @@ impl Journal {
         }
     }
 
-    /// Lists the pieces of a shard that has ended.
+    /// Adds checksums of the journal files of a shard that has ended.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -229,7 +228,7 @@ impl Journal {
         pieces.filter(|piece| !sums.holds(piece)).try_for_each(|piece| sums.add(&piece))
     }
 
-    /// Reads through the journals of folders that hold parts of one sweep of `samples`.
+    /// Reads the journals of folders that contain parts of one sweep of `samples`.
     ///
     /// # Errors
     /// An error of the operating system; a file that is no piece, or of another sweep.
@@ -266,7 +265,7 @@ impl Journal {
         Ok(())
     }
 
-    /// The rows of a piece, and whether one was cut off.
+    /// Rows of a journal file, and whether one was truncated.
     fn piece(&self, path: &Path) -> Result<(Vec<Row>, bool), Problem> {
         let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
         if fs::metadata(path).is_ok_and(|file| file.len() > LARGEST || !file.is_file()) {
@@ -293,7 +292,7 @@ impl Journal {
         Ok((lines.enumerate().map(row).collect::<Result<_, _>>()?, torn))
     }
 
-    /// The shards that lack samples and how many, as far as the files tell into how many shards the study was cut.
+    /// Shards with missing samples, and how many, as far as the files show the number of shards.
     pub fn lacking(&self, samples: u64) -> Vec<(Shard, u64)> {
         let counts: BTreeSet<u64> = self.begun.iter().map(|s| s.count).collect();
         let Some(count) = counts.last().filter(|_| counts.len() == 1) else {
@@ -307,8 +306,8 @@ impl Journal {
         all.filter(|(_, missing)| *missing > 0).collect()
     }
 
-    /// Hands over all rows in the order of their samples, read in portions: memory does not grow with their number. Where
-    /// two processes have computed one sample its results must agree.
+    /// Passes all rows on in the order of their samples, read in portions of bounded memory. Duplicate results of a
+    /// sample must agree.
     ///
     /// # Errors
     /// Results that disagree; an error of the operating system; what `see` says.
@@ -317,7 +316,7 @@ impl Journal {
         starts.try_for_each(|start| self.rows(start..start + AT_ONCE)?.into_iter().try_for_each(&mut see))
     }
 
-    /// The rows of those of a range of samples that are finished, in order.
+    /// Rows of the finished samples of a range, in order.
     ///
     /// # Errors
     /// As [`Journal::each_row`].

@@ -7,23 +7,23 @@ use serde::{Deserialize, Serialize};
 use super::texts::NamedBy;
 use crate::base::sha256;
 
-/// Number of this form of the folder.
+/// Version of the folder format.
 const FORM: u32 = 2;
 
-/// What a folder is the sweep of. Nothing in it depends on the day, the machine or the number of threads.
+/// Identity of a sweep, independent of date, machine and number of threads.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// Form of the folder.
+    /// Version of the folder format.
     pub form: u32,
     /// The program and its version.
     pub program: String,
     /// Title of the study.
     pub title: String,
-    /// How many samples there are.
+    /// Number of samples.
     pub samples: u64,
     /// Changes from the command line.
     pub overrides: Vec<String>,
-    /// Everything that was read; the first is the study, the second its scenario.
+    /// All input texts; the first is the study, the second its scenario.
     pub texts: Vec<Text>,
     /// Columns of the table between `index` and `status`, and between `reason` and `wall_time_s`.
     pub columns: Vec<Column>,
@@ -32,11 +32,11 @@ pub struct Manifest {
 /// A file that the sweep was made from.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Text {
-    /// Who names it.
+    /// Who refers to it.
     pub by: NamedBy,
-    /// As it is named there; the study without its folder.
+    /// Its name there; the study without its folder.
     pub name: String,
-    /// Where the folder holds a copy.
+    /// Name of the copy in the folder.
     pub copy: String,
     /// SHA-256 of its bytes.
     pub sha256: String,
@@ -49,19 +49,19 @@ pub struct Column {
     pub name: String,
     /// Unit; `1` for a plain number, empty for texts.
     pub unit: String,
-    /// What stands in it.
+    /// Its role.
     pub role: Role,
 }
 
-/// What a column holds.
+/// Role of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// A number that the study varies.
+    /// A numeric parameter.
     Input,
-    /// A text that the study varies.
+    /// A text parameter.
     InputText,
-    /// A measure of the run.
+    /// A result of the run.
     Figure,
 }
 
@@ -81,7 +81,7 @@ impl Manifest {
         Ok(bytes)
     }
 
-    /// Names it in every piece of the journal.
+    /// SHA-256 of the manifest, included in every journal file.
     ///
     /// # Errors
     /// As [`Manifest::to_bytes`].
@@ -89,12 +89,12 @@ impl Manifest {
         self.to_bytes().map(|bytes| sha256(&bytes))
     }
 
-    /// Where a measure stands among the columns.
+    /// Index of a measure's column.
     pub fn figure(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|c| c.role == Role::Figure && c.name == name)
     }
 
-    /// A line for each thing that differs, `what: there → here`. `there` and `here` give the texts.
+    /// One line per difference, `what: there → here`. `there` and `here` provide the texts.
     pub fn differences(
         &self,
         here: &Manifest,

@@ -9,30 +9,30 @@ use super::folder::Holds;
 use super::shard::Shard;
 use crate::base::{Failure, FileProblem};
 
-/// So many ranges or shards are named.
+/// Largest number of ranges or shards named.
 const SHOWN: usize = 20;
 
-/// What can go wrong with a folder of results, and how to mend it, where that can be said.
+/// A problem of a result folder, with its remedy if known.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// A file that cannot be written.
     #[error(transparent)]
     File(#[from] FileProblem),
-    /// Something of that name that is no folder of ours.
+    /// The path exists and is no result folder.
     #[error("{} exists and does not belong to this sweep\n = help: choose a new folder or an empty one", .path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
-    /// There are files, but none of ours.
+    /// The folder has files, but none of ours.
     #[error("{} contains files that do not belong to a {}\n = help: choose a new folder or an empty one", .folder.display(), .holds.word)]
     NotOurs {
         /// The folder.
         folder: PathBuf,
-        /// What it holds.
+        /// Its kind.
         holds: &'static Holds,
     },
-    /// The folder holds something else, or the same of another version; a line for each difference.
+    /// The folder belongs to another sweep or version; a line per difference.
     #[error(
         "{} contains another {} (there → here):\n   {}\n = help: choose another folder, or start again with --restart, which removes the old results",
         .folder.display(), .holds.word, .differences.join("\n   ")
@@ -40,12 +40,12 @@ pub enum Problem {
     Differs {
         /// The folder.
         folder: PathBuf,
-        /// What it holds.
+        /// Its kind.
         holds: &'static Holds,
-        /// In what, as text.
+        /// The differences, as text.
         differences: Vec<String>,
     },
-    /// A file of the folder is not what it should be.
+    /// A file of the folder is invalid.
     #[error(
         "{} {found}\n = help: run the same `occupant sweep` or `occupant fit` command again to repair it", .path.display()
     )]
@@ -55,7 +55,7 @@ pub enum Problem {
         /// What was found.
         found: String,
     },
-    /// A file of results was damaged, and what came after has not made it again.
+    /// A result file was damaged and has not been recomputed.
     #[error(
         "{} was changed after it was written, and was not repaired\n = help: remove the file, or start again with --restart", .path.display()
     )]
@@ -63,25 +63,25 @@ pub enum Problem {
         /// The file.
         path: PathBuf,
     },
-    /// Another process is at work there.
+    /// Another process is working in the folder.
     #[error("another process is working in {}: it {doing}\n = help: wait for it, or choose another folder", .folder.display())]
     Busy {
         /// The folder.
         folder: PathBuf,
-        /// What is being done.
+        /// Its work.
         doing: String,
     },
-    /// Samples are not finished; shards that have begun and how many samples each lacks.
+    /// Samples are unfinished; shards that have started, and their missing samples.
     #[error(
         "{}\n = help: run the same `occupant sweep` command again to resume",
         incomplete(.gaps, .samples, .shards)
     )]
     Incomplete {
-        /// Runs that are missing.
+        /// Missing runs.
         gaps: Vec<Range<u64>>,
-        /// How many there should be.
+        /// Number of samples expected.
         samples: u64,
-        /// Parts that there are, and how many runs each has.
+        /// Shards, and the number of missing samples of each.
         shards: Vec<(Shard, u64)>,
     },
     /// Two results of one sample disagree.
@@ -99,14 +99,14 @@ pub enum Problem {
 }
 
 impl Problem {
-    /// What the operating system said while something was done to a file.
+    /// An operating system error during an operation on a file.
     pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
         let path = path.to_owned();
         move |source| Problem::File(FileProblem::Io { doing, path, source })
     }
 }
 
-/// Gaps among so many samples, and the shards that have begun and lack samples.
+/// Missing samples, and the shards that have started and lack samples.
 fn incomplete(gaps: &[Range<u64>], samples: &u64, shards: &[(Shard, u64)]) -> String {
     let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
     let mut text = format!("{missing} of {samples} samples are missing: {}", ranges_text(gaps, SHOWN));

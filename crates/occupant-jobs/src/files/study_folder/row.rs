@@ -7,15 +7,15 @@ use serde::{Deserialize, Serialize};
 
 use occupant_files::table::Cell;
 
-/// How a sample ended.
+/// Outcome of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// At its end time.
+    /// It reached its end time.
     Completed,
     /// The integration failed.
     Failed,
-    /// The scenario of the sample is refused: nothing was run.
+    /// Its scenario was refused: nothing was run.
     Refused,
     /// The program broke off: a defect.
     Broken,
@@ -33,28 +33,28 @@ impl Status {
     }
 }
 
-/// One sample's line of the table.
+/// A row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Number of the sample, from 0.
+    /// Index of the sample, from 0.
     pub index: u64,
     /// How it ended.
     pub status: Status,
-    /// Why, where it did not complete; else empty.
+    /// The reason, if it did not complete; else empty.
     pub reason: String,
-    /// The caveats on its figures, by blanks: the name of each and, in brackets, the figures that it spoils.
+    /// Caveats, separated by blanks: each name with the affected figures in brackets.
     #[serde(default)]
     pub caveats: String,
     /// Values, by [`super::manifest::Column`]: inputs, then figures.
     pub cells: Vec<Cell>,
-    /// Time it took, s. It differs from run to run.
+    /// Wall time, s. It differs from run to run.
     pub wall_time_s: f64,
-    /// Which form of the kernel ran it. All give the same bits.
+    /// Kernel used. All give the same bits.
     pub kernel: String,
 }
 
 impl Row {
-    /// The row of a run. One that is out of balance counts as completed here: its balance stands in the table.
+    /// The row of a run. A run out of balance counts as completed here: its balance is in the table.
     pub fn of<R>(run: &Finished<R>, cells: Vec<Cell>) -> Row {
         let (status, reason) = match &run.ending {
             Ending::Completed | Ending::OutOfBalance(_) => (Status::Completed, String::new()),
@@ -66,7 +66,7 @@ impl Row {
         Row { index: run.index, status, reason, caveats: String::new(), cells, wall_time_s: run.wall_time_s, kernel }
     }
 
-    /// Takes over the caveats of its run.
+    /// Adds the caveats of its run.
     pub fn warn_of(&mut self, caveats: &[Caveat]) {
         let words = caveats.iter().map(|caveat| format!("{}({})", caveat.name, caveat.figures.join(";")));
         self.caveats = words.collect::<Vec<_>>().join(" ");
@@ -81,7 +81,7 @@ impl Row {
         })
     }
 
-    /// Whether two rows are the same bits, wall time and kernel aside.
+    /// Whether two rows are equal bit for bit, except wall time and kernel.
     pub fn agrees(&self, other: &Row) -> bool {
         let same = |(a, b): (&Cell, &Cell)| match (a, b) {
             (Cell::Number(a), Cell::Number(b)) => a.to_bits() == b.to_bits(),

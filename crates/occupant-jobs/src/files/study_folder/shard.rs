@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-/// Part `number` of `count`, counted from 1; part 1 of 1 is everything.
+/// Part `number` of `count`, from 1; part 1 of 1 is the whole study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Shard {
     number: u64,
@@ -11,10 +11,10 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Everything.
+    /// The whole study.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
-    /// Reads `3/8`.
+    /// Parses `3/8`.
     ///
     /// # Errors
     /// Problems of it.
@@ -37,8 +37,8 @@ impl Shard {
         }
     }
 
-    /// The shard that the environment names, and by which variable: `OCCUPANT_SHARD`, or else the Slurm job array that the
-    /// process is a task of.
+    /// The shard given by the environment, and the variable: `OCCUPANT_SHARD`, or else the Slurm job array of the
+    /// process.
     ///
     /// # Errors
     /// Variables that name no shard.
@@ -70,17 +70,17 @@ impl Shard {
         Ok(Some((shard, "SLURM_ARRAY_TASK_ID")))
     }
 
-    /// All parts of so many.
+    /// All parts of `count`.
     pub fn all(count: u64) -> impl Iterator<Item = Shard> {
         (1..=count).map(move |number| Shard { number, count })
     }
 
-    /// Whether it is everything.
+    /// Whether it is the whole study.
     pub fn is_whole(self) -> bool {
         self.count == 1
     }
 
-    /// The samples of this part, of `samples` in all: an even share, next to each other.
+    /// The samples of this part, of `samples` in total: an even, contiguous share.
     pub fn range(self, samples: u64) -> Range<u64> {
         let border = |part: u64| {
             let at = u128::from(samples) * u128::from(part) / u128::from(self.count);
@@ -90,12 +90,12 @@ impl Shard {
         border(self.number - 1)..border(self.number)
     }
 
-    /// The beginning of the names of its files.
+    /// First part of its file names.
     pub fn file_stem(self) -> String {
         format!("shard-{:04}-of-{:04}", self.number, self.count)
     }
 
-    /// The shard that a file belongs to, by its name.
+    /// The shard of a file, by its name.
     pub fn of_file(name: &str) -> Option<Shard> {
         let (number, rest) = name.strip_prefix("shard-")?.split_once("-of-")?;
         let count = rest.split_once('.')?.0;

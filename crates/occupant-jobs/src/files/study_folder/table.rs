@@ -10,10 +10,10 @@ use super::row::Row;
 use crate::base::{Existing, Failure};
 use occupant_files::table::{Cell, Form, Kind, TableFile};
 
-/// The files of a table under their provisional names.
+/// Files of a table under their temporary names.
 pub struct StudyTable {
     files: Vec<TableFile>,
-    /// Cells of a row that stand before `status`.
+    /// Number of cells before `status`.
     inputs: usize,
 }
 
@@ -60,7 +60,7 @@ impl StudyTable {
         self.files.iter_mut().try_for_each(|file| file.row(cells.clone()))
     }
 
-    /// Gives the complete files their names.
+    /// Renames the complete files.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -69,7 +69,7 @@ impl StudyTable {
     }
 }
 
-/// The columns of a table; the first `inputs` of the manifest's stand before `status`.
+/// Columns of a table; the first `inputs` of the manifest's come before `status`.
 fn columns(manifest: &Manifest, inputs: usize) -> Vec<(&str, Kind)> {
     let of = |column: &Column| match column.role {
         Role::Input | Role::Figure => Kind::MaybeNumber,
@@ -82,7 +82,7 @@ fn columns(manifest: &Manifest, inputs: usize) -> Vec<(&str, Kind)> {
     [&[("index", Kind::Count)][..], inputs, &ending, figures, &work].concat()
 }
 
-/// What a table of the columns has.
+/// Columns of the table of columns.
 const COLUMNS: [(&str, Kind); 3] = [("column", Kind::Text), ("unit", Kind::Text), ("role", Kind::Text)];
 
 /// Names, units and roles of the columns.

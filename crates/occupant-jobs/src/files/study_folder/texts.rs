@@ -9,11 +9,11 @@ use super::folder::Folder;
 use super::manifest::{Manifest, Text};
 use crate::base::{file_name, input_file, sha256};
 
-/// Who names a file.
+/// Origin of a reference to a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NamedBy {
-    /// The command line: it is the study.
+    /// The command line: the study itself.
     CommandLine,
     /// The study, as the scenario to vary.
     StudyAsBase,
@@ -25,27 +25,27 @@ pub enum NamedBy {
     CommandLineTest,
 }
 
-/// Where texts come from.
+/// Source of texts.
 #[derive(Clone, Debug)]
 enum Source {
-    /// The files themselves; a name of the study is relative to it, one of the scenario to that.
+    /// The original files; paths in the study are relative to it, those in the scenario to the scenario.
     Files { study: PathBuf },
     /// The copies in the folder of a sweep.
     Copies { folder: Folder, texts: Vec<Text> },
 }
 
-/// Reads texts and remembers them.
+/// Reads texts and keeps them.
 #[derive(Debug)]
 pub struct Texts {
     source: Source,
-    /// For the manifest, and the bytes.
+    /// Manifest entries and bytes.
     read: RefCell<Vec<(Text, Vec<u8>)>>,
-    /// Folder of the scenario, relative names included.
+    /// Folder of the scenario, the base of relative paths.
     base: RefCell<PathBuf>,
 }
 
 impl Texts {
-    /// As files say it.
+    /// Reads the original files.
     pub fn of_files(study: &Path) -> Self {
         Texts::new(Source::Files { study: study.to_owned() })
     }
@@ -59,7 +59,7 @@ impl Texts {
         Texts { source, read: RefCell::default(), base: RefCell::default() }
     }
 
-    /// The bytes of a file that was named; read once.
+    /// Bytes of a referenced file; read once.
     ///
     /// # Errors
     /// Why it cannot be read.
@@ -103,14 +103,14 @@ impl Texts {
         }
     }
 
-    /// Stores what was read, or what stands for something that is no single file.
+    /// Stores a text, or a substitute for something that is no single file.
     pub fn add(&self, by: NamedBy, name: &str, bytes: Vec<u8>) {
         let mut read = self.read.borrow_mut();
         let copy = format!("inputs/{}-{}", read.len(), file_name(Path::new(name)));
         read.push((Text { by, name: name.to_owned(), copy, sha256: sha256(&bytes) }, bytes));
     }
 
-    /// What was read, for the manifest, and the bytes.
+    /// All texts, for the manifest, with their bytes.
     pub fn all(&self) -> (Vec<Text>, Vec<Vec<u8>>) {
         self.read.borrow().iter().cloned().unzip()
     }

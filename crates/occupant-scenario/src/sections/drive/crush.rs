@@ -12,14 +12,15 @@ use super::super::{Angle, Length, Pressure, Ratio, Speed, Stiffness, Time};
 use super::DriveSection;
 use placed_text::with_key;
 
-/// How a vehicle crushes. Keys that are absent take the values of the preset.
+/// Crush properties of a vehicle. Absent keys take the values of the preset.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["front", "test"]]))]
 pub(crate) struct CrushSection {
-    /// Which crush the stiffness reproduces. If absent, "dynamic" if the vehicle has occupants, else "residual".
+    /// Interpretation of the stiffness coefficients. If absent, "dynamic" if the vehicle has occupants, else
+    /// "residual".
     pub(crate) reading: Option<CrushReading>,
-    /// How much larger the maximum dynamic crush is than the residual crush, as a fraction; 0.2 if absent, from one
+    /// Increase of the maximum dynamic crush over the residual interpretation, as a fraction; 0.2 if absent, from one
     /// test.
     pub(crate) longer: Option<Ratio<NOT_NEGATIVE>>,
     /// Front.
@@ -28,20 +29,19 @@ pub(crate) struct CrushSection {
     pub(crate) side: Option<FaceSection>,
     /// Rear.
     pub(crate) rear: Option<FaceSection>,
-    /// A full-width wall test, to derive the front stiffness from.
+    /// A full-width wall test from which the front stiffness is computed.
     pub(crate) test: Option<WallTestSection>,
-    /// Fractions of energy restored: of the part below A/B, and of the rest; [0.2, 0.015] if absent.
+    /// Fractions of energy returned: of the part below A/B, and of the rest; [0.2, 0.015] if absent.
     pub(crate) returned: Option<[Ratio<FRACTION>; 2]>,
 }
 
-/// Which crush the stiffness gives.
+/// Interpretation of the stiffness coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum CrushReading {
-    /// The maximum crush is the residual crush plus A/B: for damage and reconstruction. The pulse is too short for
-    /// people.
+    /// Maximum crush = residual crush + A/B: for damage and reconstruction. The pulse is too short for occupants.
     Residual,
-    /// The maximum crush is larger, at the same energy and residual crush: for pulses that act on people.
+    /// Larger maximum crush at the same energy and residual crush: for pulses on occupants.
     Dynamic,
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct WallTestSection {
     pub(crate) mass: Option<super::super::Mass<POSITIVE>>,
 }
 
-/// An impact by impulse and momentum; the two do not crush each other.
+/// An impact by impulse and momentum; the pair does not crush.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ImpactSection {
@@ -90,7 +90,7 @@ pub(crate) struct ImpactSection {
     pub(crate) duration: Option<Time<NOT_NEGATIVE>>,
 }
 
-/// Maximum crush of vehicles with occupants beyond that of the residual reading, as a fraction.
+/// Default increase of the maximum crush of vehicles with occupants, as a fraction.
 const LONGER: f64 = 0.2;
 
 impl CrushSection {

@@ -12,7 +12,7 @@ use super::super::{Angle, Length, Moment, Ratio, Speed, Time};
 use super::vehicle::DrivenSection;
 use placed_text::with_key;
 
-/// Steering over time, straight lines between the times.
+/// Steering over time, linear between the times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["wheel", "angle"]]))]
@@ -25,7 +25,7 @@ pub(crate) struct SteerSection {
     pub(crate) angle: Option<Vec<Angle>>,
 }
 
-/// Brake over time, straight lines between the times.
+/// Brake over time, linear between the times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["pedal", "torque"]]))]
@@ -34,11 +34,11 @@ pub(crate) struct BrakeSection {
     pub(crate) time: Vec<Time>,
     /// Brake torque at each time, as a fraction of the full torque, 0 to 1.
     pub(crate) pedal: Option<Vec<Ratio<FRACTION>>>,
-    /// Brake torque of all wheels at each time, instead.
+    /// Brake torque of all wheels at each time, instead of `pedal`.
     pub(crate) torque: Option<Vec<Moment<NOT_NEGATIVE>>>,
 }
 
-/// Drive torque over time, straight lines between the times.
+/// Drive torque over time, linear between the times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ThrottleSection {
@@ -48,7 +48,7 @@ pub(crate) struct ThrottleSection {
     pub(crate) torque: Vec<Moment>,
 }
 
-/// Speed over time, as a recorder keeps it before a crash; drive and brakes follow it as far as the tyres can.
+/// Speed over time, such as a recorder's pre-crash data; drive and brakes follow it as far as the tyres allow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpeedSection {
@@ -58,7 +58,7 @@ pub(crate) struct SpeedSection {
     pub(crate) speed: Vec<Speed<NOT_NEGATIVE>>,
 }
 
-/// A driver who follows a line: he aims at its point 0.6 s ahead, at least 6 m.
+/// A path-following driver: he aims at the point of the line 0.6 s ahead, at least 6 m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FollowSection {
@@ -94,23 +94,23 @@ pub(crate) struct WheelSection {
     pub(crate) locked_on_impact: Option<bool>,
 }
 
-/// What a driver does from his first collision on.
+/// Reaction of the driver to his first collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum AfterImpact {
-    /// Feet off.
+    /// Releases the pedals.
     Release,
-    /// His feet stay as they were.
+    /// Holds the pedals.
     Hold,
-    /// He brakes with a full pedal.
+    /// Brakes with full pedal.
     Brake,
-    /// He continues as if nothing had happened.
+    /// Continues unchanged.
     Continue,
 }
 
-/// Deceleration of a full pedal, g.
+/// Deceleration at full pedal, g.
 const FULL_PEDAL_G: f64 = 1.2;
-/// Angle of the steering wheel over that of the front wheels.
+/// Ratio of steering-wheel angle to front-wheel angle.
 const STEERING_RATIO: f64 = 16.0;
 
 /// The driver of a vehicle; mistakes are reported.

@@ -9,7 +9,7 @@ use super::super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::super::{Angle, Length, Ratio};
 use placed_text::{Problem, with_key};
 
-/// What vehicles drive on.
+/// The ground that vehicles drive on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["section", "ditch", "cross_slope"]]))]
@@ -32,7 +32,7 @@ pub(crate) struct RoadSection {
     pub(crate) zones: Vec<ZoneSection>,
 }
 
-/// Corners of a cross-section from left to right. The outer slopes go on beyond the last corners.
+/// Corners of a cross-section from left to right. The outer slopes continue beyond the last corners.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CrossSection {
@@ -78,22 +78,23 @@ pub(crate) struct CurbSection {
 pub(crate) struct ZoneSection {
     /// Name used in events.
     pub(crate) name: String,
-    /// From and to, to the right of the x axis.
+    /// Left and right boundary, to the right of the x axis.
     pub(crate) right: [Length; 2],
-    /// Friction of tyres of grip 1.
+    /// Friction of tyres with grip 1.
     pub(crate) friction: Ratio<NOT_NEGATIVE>,
-    /// Extra factor when a tyre slides sideways, such as furrowing soil; 1 if absent.
+    /// Further factor on lateral sliding, as in furrowing soil; 1 if absent.
     pub(crate) lateral: Option<Ratio<NOT_NEGATIVE>>,
     /// Coefficient of rolling resistance; that of the tyre if absent.
     pub(crate) rolling: Option<Ratio<NOT_NEGATIVE>>,
 }
 
-/// Friction of a road if none is given.
+/// Default friction of a road.
 const DRY_ASPHALT: f64 = 0.76;
 const AT: &str = "drive.ground";
 
 impl DitchSection {
-    /// Corners of the cross-section from left to right: right, up, m. The road is level to its left, the land behind to its right.
+    /// Corners of the cross-section from left to right: right, up, m. The road on its left and the land on its right
+    /// are level.
     fn corners_m(&self) -> Vec<[f64; 2]> {
         let (edge_m, depth_m) = (self.edge.si(), self.depth.si());
         let foot_m = edge_m + self.foreslope.si() * depth_m;
@@ -116,7 +117,7 @@ impl DitchSection {
     }
 }
 
-/// A slope of a roadside that is steeper than 1V:1H was probably given as height over length.
+/// Warns of a slope steeper than 1V:1H, which was probably given as height over length.
 const STEEPEST: f64 = 1.0;
 /// Distance of a level corner beside a slope, m; the ground continues beyond it.
 const LEVEL_M: f64 = 5.0;

@@ -39,12 +39,12 @@ use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_core::vehicle::{DrivenPath, VehiclePath};
 use placed_text::{Diagnostics, Document, Problem, with_key};
 
-/// Road vehicles that are driven before people are looked at. Axes are vehicle-space: x ahead, y to the right, z down; yaw and
-/// steering are positive to the right, heights and slopes up.
+/// Road vehicles, simulated before the occupants. Axes are vehicle-space: x forward, y to the right, z down; yaw and
+/// steering are positive to the right, heights and slopes upward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DriveSection {
-    /// How long the vehicles drive, from time 0.
+    /// End of the drive, which starts at time 0.
     pub(crate) end: Time<POSITIVE>,
     /// Allowed position error of a step; 0.01 mm if absent.
     pub(crate) tolerance: Option<Length<POSITIVE>>,
@@ -100,9 +100,10 @@ pub struct DrivenVehicle {
     pub unladen: Car,
     /// The vehicle with its load.
     pub car: Car,
-    /// Origin of the compartment, which is the centre of gravity without load, from that with it, body axes, m.
+    /// Position of the compartment's origin (the unladen centre of gravity) from the laden centre of gravity, body
+    /// axes, m.
     pub origin_m: V3,
-    /// Keys that the scenario gives in place of the preset's.
+    /// Keys given by the scenario instead of the preset.
     pub given: Vec<&'static str>,
 }
 
@@ -162,7 +163,7 @@ impl DriveSection {
         (world, vehicles)
     }
 
-    /// The number of the vehicle that a path means.
+    /// The number of the vehicle referred to by a path.
     fn named(&self, path: &DrivenPathSection) -> Option<usize> {
         match &path.vehicle {
             Some(name) => self.vehicles.get_index_of(name),
@@ -171,7 +172,7 @@ impl DriveSection {
     }
 }
 
-/// Drives all vehicles; `people` are the occupants of each. None if nothing is driven.
+/// Simulates all vehicles; `people` are the occupants of each. None without vehicles.
 ///
 /// # Errors
 /// Problems of vehicles, ground and drivers, with its place; warnings are among the others.
@@ -210,7 +211,7 @@ pub(crate) fn solve(
     Ok((Some(Drives(Arc::new(solved))), std::mem::take(&mut b.problems)))
 }
 
-/// Longest step of a drive, s: between its stations the occupants' frame moves along polynomials.
+/// Longest step of a drive, s: the occupants' frame moves along polynomials between its stations.
 const LONGEST_S: f64 = 0.01;
 
 /// The key of a vehicle that a problem is about, and what is expected of it.
@@ -287,7 +288,7 @@ pub(super) fn path(b: &mut Builder, section: &DrivenPathSection) -> Option<Vehic
     Some(b.drives.map_or_else(VehiclePath::parked, |drives| drives.path(number).clone()))
 }
 
-/// Reports vehicles of the scenario that move as one vehicle of `drive`.
+/// Reports vehicles of the scenario that follow the same vehicle of `drive`.
 pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
     let Some(drive) = &s.drive else { return };
     let mut taken: Vec<(usize, String)> = Vec::new();
@@ -307,7 +308,7 @@ pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
     }
 }
 
-/// Warns if a load that moves with the vehicle is a large part of its mass.
+/// Warns if the mass of occupants is a large part of the vehicle's mass.
 fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64) {
     if load_kg > 0.1 * mass_kg {
         let found = format!("a fixed load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg");

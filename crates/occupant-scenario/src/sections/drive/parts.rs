@@ -57,14 +57,14 @@ pub(crate) struct TyresSection {
     pub(crate) cornering: Option<Ratio<POSITIVE>>,
     /// Reference load, at which `cornering` applies.
     pub(crate) reference_load: Option<Force<POSITIVE>>,
-    /// Load at which cornering stiffness peaks, over the reference load. A large value makes cornering stiffness
+    /// Load at which cornering stiffness peaks, relative to the reference load. A large value makes cornering stiffness
     /// proportional to load.
     pub(crate) greatest_at: Option<Ratio<POSITIVE>>,
     /// Longitudinal slip stiffness over load.
     pub(crate) slip_stiffness: Option<Ratio<POSITIVE>>,
     /// Camber stiffness per radian over load.
     pub(crate) camber: Option<Ratio<NOT_NEGATIVE>>,
-    /// Sliding friction over peak friction.
+    /// Sliding friction relative to peak friction.
     pub(crate) sliding_share: Option<Ratio<FRACTION>>,
     /// Relaxation length.
     pub(crate) relaxation: Option<Length<POSITIVE>>,

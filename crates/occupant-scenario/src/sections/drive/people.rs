@@ -14,7 +14,7 @@ use super::{DrivenSection, Solved};
 use occupant_core::model::Model;
 use placed_text::{Diagnostics, Document, Problem, with_key};
 
-/// The occupants of a vehicle: mass, and their centre of gravity in its axes, from its own without load.
+/// Occupants of a vehicle: mass, and their centre of gravity in its axes, from its own without load.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct People {
     pub(crate) mass_kg: f64,
@@ -22,10 +22,10 @@ pub(crate) struct People {
     balls: Vec<Ball>,
 }
 
-/// A sphere of an occupant at the start, vehicle axes.
+/// Initial position of an occupant's sphere, vehicle axes.
 #[derive(Clone, Debug, PartialEq)]
 struct Ball {
-    /// The occupant's place in the scenario, and the sphere's name.
+    /// The occupant's name in the scenario, and the sphere's name.
     who: String,
     name: String,
     place_m: V3,
@@ -47,7 +47,7 @@ pub(crate) fn asks_for_people(s: &Scenario) -> bool {
 }
 
 impl Scenario {
-    /// The vehicle of `drive` to which a vehicle of the scenario refers.
+    /// The vehicle of `drive` that a vehicle of the scenario follows.
     pub(super) fn driven(&self, vehicle: &str) -> Option<usize> {
         let own = self.vehicles.get(vehicle).map(|own| &own.path);
         let path = own.or_else(|| (vehicle == VEHICLE).then(|| self.first_path().map(|(_, path)| path)).flatten())?;
@@ -57,7 +57,7 @@ impl Scenario {
         }
     }
 
-    /// Bodies: the place of each in the scenario, and the vehicle in which it begins.
+    /// Bodies: the path of each in the scenario, and its initial vehicle.
     fn homes(&self) -> impl Iterator<Item = (String, Option<&str>)> {
         let first = self.body.is_some().then_some(("body".to_owned(), Some(VEHICLE)));
         let others = self.occupants.iter().map(|(name, own)| (with_key("occupants", name), own.vehicle.as_deref()));
@@ -65,12 +65,12 @@ impl Scenario {
         first.into_iter().chain(others).chain(loose)
     }
 
-    /// Whether somebody begins in a vehicle of `drive`.
+    /// Whether anyone starts in a vehicle of `drive`.
     pub(super) fn carries(&self, number: usize) -> bool {
         self.homes().any(|(_, home)| home.and_then(|home| self.driven(home)) == Some(number))
     }
 
-    /// The occupants that begin in each vehicle of `drive`; `model` has them in vehicles at rest at the origin.
+    /// Occupants that start in each vehicle of `drive`; `model` has them in vehicles at rest at the origin.
     pub(crate) fn weighed(&self, model: &Model) -> Vec<Option<People>> {
         let mut people = vec![None; self.drive.as_ref().map_or(0, |drive| drive.vehicles.len())];
         let bodies = if model.alone().is_empty() { std::slice::from_ref(model) } else { model.alone() };
@@ -85,7 +85,7 @@ impl Scenario {
         people
     }
 
-    /// Reports occupants that begin within the crush of their vehicle without a panel that moves with it.
+    /// Reports occupants within the crush of their vehicle without an intruding panel.
     pub(crate) fn check_crush(&self, document: &Document, solved: &Solved) -> Diagnostics {
         let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
         for number in 0..solved.vehicles.len() {
@@ -140,7 +140,7 @@ impl People {
 }
 
 impl Solved {
-    /// The sphere that the crush of a vehicle before a time enters most deeply, and the depth, m; none if it reaches
+    /// The sphere that the crush of a vehicle before a time intrudes most deeply, and the depth, m; none if it reaches
     /// none.
     fn reached(&self, number: usize, end_s: f64) -> Option<(&Ball, f64)> {
         let meets = |contact: &&vehicle_motion::world::Contact| {

@@ -14,11 +14,11 @@ use occupant_core::model::setup::Scenery;
 /// Convex polygons.
 pub type Polygons = Vec<Vec<Point3<f64>>>;
 
-/// Distance that the road extends beyond the drive, m.
+/// Length of the road beyond the drive, m.
 const BEYOND_M: f64 = 12.0;
-/// Corners of a wheel.
+/// Number of corners of a wheel.
 const ROUND: usize = 24;
-/// Breadth of a tyre mark, and how far it lies over the ground, m.
+/// Width of a tyre mark, and its height above the ground, m.
 const TREAD_M: f64 = 0.16;
 const OVER_M: f64 = 0.01;
 

@@ -9,12 +9,12 @@ use vehicle_motion::world::{Bend, Bent};
 use super::Drives;
 use super::scenery::{Polygons, on_ground};
 
-/// Heights of barriers that have none of their own, m.
+/// Default heights of barriers, m.
 const WALL_M: f64 = 0.9;
 const POLE_M: f64 = 2.4;
-/// Distance that a wall is drawn beyond the drive, m.
+/// Length of a wall drawn beyond the drive, m.
 const BEYOND_M: f64 = 5.0;
-/// Half the breadth of a post, m.
+/// Half width of a post, m.
 const POST_M: f64 = 0.06;
 /// Sides of a pole.
 const ROUND: usize = 12;

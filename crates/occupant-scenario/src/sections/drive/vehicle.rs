@@ -128,12 +128,12 @@ impl StartSection {
 }
 
 impl DrivenSection {
-    /// Whether its load depends on who sits in it.
+    /// Whether its load depends on its occupants.
     pub(super) fn takes_people(&self) -> bool {
         self.payload.is_some()
     }
 
-    /// The vehicle on a road with a friction; mistakes are reported.
+    /// The vehicle on a road with this friction; mistakes are reported.
     pub(super) fn vehicle(
         &self,
         b: &mut Builder,

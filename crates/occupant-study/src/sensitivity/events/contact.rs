@@ -6,36 +6,36 @@ use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::vector::V3;
 
-/// Number of the look before the first; a pair that was never seen has 0.
+/// Look number for a pair never seen.
 const NONE_YET: u64 = 1;
 
-/// What happens to a sphere on a surface.
+/// Contact events of a sphere and a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touching {
-    /// It touches.
+    /// Contact begins.
     Begins,
-    /// It leaves the plane.
+    /// Contact ends: the sphere leaves the plane.
     Ends,
-    /// Its centre goes beyond the edge: the edge force sets in.
+    /// The centre passes beyond the edge: the edge force begins.
     ReachesEdge,
-    /// Its centre comes back from beyond the edge: the edge force ends.
+    /// The centre returns from beyond the edge: the edge force ends.
     LeavesEdge,
-    /// It has gone round the edge.
+    /// The sphere has passed around the edge.
     Passes,
-    /// It comes onto this surface of the same plane.
+    /// The sphere moves onto this surface of the same plane.
     Crosses,
-    /// The spring goes onto its second slope.
+    /// The spring enters its second slope.
     Stiffens,
     /// The spring begins to unload.
     Unloads,
-    /// The spring is loaded beyond what it has seen.
+    /// The spring reloads beyond its earlier maximum.
     Reloads,
-    /// It slips the other way.
+    /// Sliding reverses.
     SlipsBack,
 }
 
 impl Touching {
-    /// In words: `head begins to touch wheel`.
+    /// Description, such as `head begins to touch wheel`.
     pub(super) fn words(self, model: &Model, sphere: usize, surface: usize) -> String {
         let setup = model.setup();
         let sphere = setup.body.spheres.get(sphere).map_or("?", |s| s.name.as_str());
@@ -56,10 +56,10 @@ impl Touching {
     }
 }
 
-/// A pair at the last look.
+/// A sphere-surface pair at the last look.
 #[derive(Clone, Copy, Default)]
 struct PairNow {
-    /// Number of the look at which it touched.
+    /// Number of the look with contact.
     seen: u64,
     sphere: usize,
     surface: usize,
@@ -70,7 +70,7 @@ struct PairNow {
     edge_n: f64,
 }
 
-/// What was seen of contacts.
+/// State of all contacts at the last look.
 pub(super) struct Lookout {
     looks: u64,
     pairs: Vec<PairNow>,

@@ -7,13 +7,13 @@ use occupant_core::model::Model;
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::state::State;
 
-/// In words: `neck enters the range of its stop`.
+/// Description, such as `neck enters the range of its stop`.
 pub(super) fn words(model: &Model, joint: Joint, enters: bool) -> String {
     let verb = if enters { "enters" } else { "leaves" };
     format!("{} {verb} the range of its stop", model.body().tree[joint].name)
 }
 
-/// Which joints were last seen in the range of a stop.
+/// Whether each joint was in the range of a stop at the last look.
 #[derive(Default)]
 pub(super) struct Lookout(Vec<Option<bool>>);
 

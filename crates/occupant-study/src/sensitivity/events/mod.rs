@@ -21,28 +21,28 @@ use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::state::State;
 
-/// Events beyond this number are counted and not kept.
+/// Largest number of events kept; further ones are counted.
 const MOST: usize = 4096;
 
-/// What happens.
+/// Kind of event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Happening {
-    /// To a sphere on a surface.
+    /// Of a sphere and a surface.
     Contact {
         /// Index of the sphere.
         sphere: usize,
         /// Index of the surface.
         surface: usize,
-        /// What.
+        /// The contact event.
         what: Touching,
     },
-    /// To another force element.
+    /// Of another force element.
     Element {
-        /// What such an element is called.
+        /// Name of the element's kind.
         of: &'static str,
         /// Its index.
         element: usize,
-        /// What, in words: `goes slack`.
+        /// The event in words: `goes slack`.
         verb: &'static str,
     },
     /// A joint enters the range of a stop, or leaves it.
@@ -54,12 +54,12 @@ pub enum Happening {
     },
 }
 
-/// How a force changes at an event.
+/// Change of a force at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// Its slope changes.
+    /// The slope of the force changes.
     Kink,
-    /// It jumps.
+    /// The force jumps.
     Jump,
 }
 
@@ -68,18 +68,18 @@ pub enum Change {
 pub struct Event {
     /// Time of the accepted step at which it was seen, s.
     pub time_s: f64,
-    /// What.
+    /// The event.
     pub happening: Happening,
     /// How the force changes.
     pub change: Change,
-    /// By how much a force jumps, N; 0 for a kink.
+    /// Jump of the force, N; 0 for a kink.
     pub jump_n: f64,
-    /// How its instant shifts with each parameter, s per unit; not known for most events.
+    /// Shift of the event time by parameter, s per unit; unknown for most events.
     pub shift: Vec<f64>,
 }
 
 impl Happening {
-    /// In words, with the names of `model`, for which it was seen: `head begins to touch wheel`.
+    /// Description with the names of `model`: `head begins to touch wheel`.
     pub fn words(&self, model: &Model) -> String {
         match *self {
             Happening::Contact { sphere, surface, what } => what.words(model, sphere, surface),
@@ -92,22 +92,22 @@ impl Happening {
     }
 }
 
-/// What one evaluation of a run in duals shows.
+/// Result of one evaluation of a run in dual numbers.
 pub(super) struct Scene<const N: usize> {
     time_s: f64,
     state: State<f64>,
-    /// What force elements do.
+    /// Actions of the force elements.
     pub actions: Actions<Dual<N>>,
 }
 
 impl<const N: usize> Scene<N> {
-    /// Room for all that `model` can show.
+    /// Buffers for `model`.
     pub fn new(model: &Model) -> Self {
         let actions = Actions::with_room(&model.system().forces);
         Scene { time_s: f64::NAN, state: model.start().state, actions }
     }
 
-    /// Another one.
+    /// Starts another evaluation.
     pub fn begin(&mut self, time_s: f64, state: &State<Dual<N>>) {
         self.time_s = time_s;
         self.state = state.zip(state, |x, _| x.value);
@@ -115,10 +115,10 @@ impl<const N: usize> Scene<N> {
     }
 }
 
-/// Looks at a run and notes its events.
+/// Detects the events of a run.
 pub(super) struct Lookout<const N: usize> {
     contacts: contact::Lookout,
-    /// What force elements did at the last look.
+    /// Actions of the force elements at the last look.
     before: Actions<Dual<N>>,
     joints: joint::Lookout,
     notes: Notes<N>,
@@ -128,17 +128,17 @@ pub(super) struct Lookout<const N: usize> {
 struct Notes<const N: usize> {
     time_s: f64,
     list: Vec<Event>,
-    /// How many were not kept.
+    /// Number of events not kept.
     dropped: u64,
 }
 
 impl<const N: usize> Notes<N> {
-    /// Notes an event, at which a force may jump.
+    /// Notes an event at which a force may jump.
     fn note(&mut self, happening: Happening, jump_n: Option<f64>) {
         self.note_shifting(happening, jump_n, [0.0; N]);
     }
 
-    /// Notes an event whose instant is known to shift.
+    /// Notes an event with a known shift of its time.
     fn note_shifting(&mut self, happening: Happening, jump_n: Option<f64>, shift: [f64; N]) {
         let (change, jump_n) = match jump_n {
             // an edge beyond which an unloaded spring was, say
@@ -153,7 +153,7 @@ impl<const N: usize> Notes<N> {
     }
 }
 
-/// Two looks, one after the other.
+/// Two consecutive looks.
 struct Between<'a, const N: usize> {
     before: &'a Actions<Dual<N>>,
     now: &'a Actions<Dual<N>>,
@@ -173,7 +173,7 @@ impl<const N: usize> Visitor for Between<'_, N> {
 }
 
 impl<const N: usize> Lookout<N> {
-    /// Nothing seen yet of `model`.
+    /// An empty lookout for `model`.
     pub fn new(model: &Model) -> Self {
         Lookout {
             contacts: contact::Lookout::new(model),
@@ -183,7 +183,7 @@ impl<const N: usize> Lookout<N> {
         }
     }
 
-    /// Compares what `scene` shows with what was seen before.
+    /// Compares `scene` with the last look.
     pub fn look(&mut self, model: &Model, scene: &mut Scene<N>, history: &History<Dual<N>>) {
         let notes = &mut self.notes;
         notes.time_s = scene.time_s;
@@ -193,7 +193,7 @@ impl<const N: usize> Lookout<N> {
         std::mem::swap(&mut self.before, &mut scene.actions);
     }
 
-    /// The events, with the shifts of the first `count` directions, and how many were not kept.
+    /// The events with the shifts of the first `count` directions, and the number not kept.
     pub fn events(self, count: usize) -> (Vec<Event>, u64) {
         let Notes { mut list, dropped, .. } = self.notes;
         list.iter_mut().for_each(|event| event.shift.truncate(count));
@@ -201,7 +201,7 @@ impl<const N: usize> Lookout<N> {
     }
 }
 
-/// Adds the shifts that another pass over the same run has found.
+/// Adds the shifts found by another pass over the same run.
 pub(super) fn join(events: &mut [Event], more: &[Event]) -> Result<(), Trouble> {
     let same = events.len() == more.len() && events.iter().zip(more).all(|(a, b)| a.happening == b.happening);
     if !same {

@@ -17,7 +17,7 @@ pub(crate) use series::is_skin;
 
 use crate::body::Body;
 
-/// Which parts of the body can touch each other, and what they are made of.
+/// Parts of the body that can touch each other, and their materials.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfContact {
     /// By sphere: index of the material of its skin.

@@ -8,13 +8,13 @@ use crate::forces::element::Instant;
 use crate::forces::joint::JointLaw;
 use placed_text::Problems;
 
-/// Bounds of θ₀ and of the twist, degrees: the azimuth means nothing near θ = 0, the twist jumps at ±180°. A limit that is the
-/// same all round needs no azimuth.
+/// Bounds of θ₀ and of the twist, degrees: the azimuth is undefined near θ = 0, the twist jumps at ±180°. A limit
+/// independent of azimuth needs none.
 const BEND_DEG: [f64; 2] = [5.0, 170.0];
 const EVEN_DEG: f64 = 0.5;
 const TWIST_DEG: f64 = 150.0;
 
-/// A joint may begin this far beyond an elastic limit, rad: 10°.
+/// Angle beyond an elastic limit at which a joint may begin, rad: 10°.
 const BEYOND_RAD: f64 = 0.1745;
 
 pub(super) fn check(joints: &Joints, limits: &Limits, problems: &mut Problems) {
@@ -72,7 +72,7 @@ fn check_stop(stop: &Stop<f64>, path: &str, problems: &mut Problems) {
     }
 }
 
-/// Joints that begin beyond their elastic limits.
+/// Warns of joints that begin beyond their elastic limits.
 pub(super) fn start(joints: &Joints, law: &LimitLaw<f64>, at: &Instant<'_, f64>, problems: &mut Problems) {
     let path = format!("joints.{}", joints.tree()[law.joint].name);
     let excess = law.excess(at).into_iter().flatten().fold(0.0, |most, (_, excess)| excess.max(most));
@@ -90,7 +90,7 @@ impl LimitLaw<f64> {
         [self.bend.as_ref().map(|bend| &bend.stop), self.turn.as_ref().map(|turn| &turn.stop)]
     }
 
-    /// What has gone beyond the end of its curve, as text.
+    /// Angle beyond the end of a curve, as text.
     pub(super) fn overrun(&self, joint: &str, past: &LimitHistory<f64>) -> Option<String> {
         let words = |x: f64| format!("{:.1}°", x.to_degrees());
         let of = format!("the joint {joint} beyond its limit");
@@ -103,7 +103,7 @@ impl LimitLaw<f64> {
         self.joint
     }
 
-    /// The least last point of the torques of its stops, rad.
+    /// Least last point of the torques of its stops, rad.
     pub(crate) fn last_point_rad(&self) -> f64 {
         self.stops().into_iter().flatten().fold(f64::INFINITY, |least, stop| least.min(stop.end()))
     }

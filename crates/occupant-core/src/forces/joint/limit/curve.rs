@@ -7,14 +7,14 @@ use nalgebra::{DMatrix, DVector};
 use crate::forces::function::Cubic;
 use crate::motion::scalar::Scalar;
 
-/// A curve of cubics, the first of which reaches down and the last up without end.
+/// Piecewise cubic curve; the first and the last piece extend without end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<S> {
     pieces: Vec<Cubic<S>>,
 }
 
 impl<S: Copy> Curve<S> {
-    /// How many pieces it has; curves of equally many can be computed side by side.
+    /// Number of pieces; curves with equal numbers can be computed side by side.
     pub(super) fn len(&self) -> usize {
         self.pieces.len()
     }
@@ -46,12 +46,12 @@ impl<S: Scalar> Curve<S> {
 }
 
 impl Curve<f64> {
-    /// The same value everywhere.
+    /// Constant curve.
     pub fn constant(value: f64) -> Self {
         Curve { pieces: vec![Cubic { from: -std::f64::consts::PI, c: [value, 0.0, 0.0, 0.0] }] }
     }
 
-    /// The periodic cubic spline of period 2π through points with x that rise within less than that; no number through none.
+    /// Periodic cubic spline of period 2π through points with rising x within one period; NaN without points.
     pub fn periodic(points: &[[f64; 2]]) -> Self {
         if points.is_empty() {
             return Curve::constant(f64::NAN);
@@ -85,7 +85,7 @@ impl Curve<f64> {
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| [least.min(v), most.max(v)])
     }
 
-    /// Whether a periodic curve is the same to both sides, on a fine grid.
+    /// Whether a periodic curve is even, on a fine grid.
     pub(super) fn is_even(&self) -> bool {
         let angles = (0..720).map(|i| f64::from(i) * TAU / 1440.0);
         angles.into_iter().all(|angle| (self.around(angle).0 - self.around(-angle).0).abs() < 1e-6)

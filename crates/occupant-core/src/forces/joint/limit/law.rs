@@ -12,7 +12,7 @@ use crate::forces::function::FunctionLaw;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// A resistance that grows beyond a limit: torque over the excess, N·m over rad.
+/// Elastic stop: torque over the excess angle, N·m over rad.
 pub type Stop<S> = FunctionLaw<S>;
 
 /// Limit of the bend θ.
@@ -22,16 +22,16 @@ pub struct Bend<S> {
     pub angle: Curve<S>,
     /// Torque over θ − θ₀.
     pub stop: Stop<S>,
-    /// Cosine of an angle that θ₀ nowhere falls below.
+    /// Cosine of a lower bound of θ₀.
     gate: S,
 }
 
 /// Limits of the twist of a ball joint, or of the angle of a hinge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turn<S> {
-    /// Between these, rad, nothing acts.
+    /// Range without torque, rad.
     pub range: [S; 2],
-    /// Torque over the angle beyond.
+    /// Torque over the angle beyond the range.
     pub stop: Stop<S>,
     /// Cosine of the nearer limit.
     gate: S,
@@ -42,15 +42,15 @@ pub struct Turn<S> {
 pub struct Friction<S> {
     /// C_f, N·m.
     pub torque: S,
-    /// ω_f, rad/s, at which it has 71 % of its full value.
+    /// ω_f, rad/s, at which friction has 71 % of its full value.
     pub speed: S,
 }
 
-/// How much the gate of a bend limit stays below the least θ₀ that a grid has found, rad.
+/// Distance of a bend limit's gate below the least θ₀ on the grid, rad.
 const MARGIN_RAD: f64 = 0.05;
 
 impl Bend<f64> {
-    /// A limit with its torque.
+    /// Limit of the bend with its torque.
     pub fn new(angle: Curve<f64>, stop: Stop<f64>) -> Self {
         let [least, _] = angle.bounds();
         let gate = occupant_units::trig::sin_cos((least - MARGIN_RAD).max(0.0)).1;
@@ -59,7 +59,7 @@ impl Bend<f64> {
 }
 
 impl Turn<f64> {
-    /// A range, rad, with the torque beyond it.
+    /// Range, rad, with the torque beyond it.
     pub fn new(range: [f64; 2], stop: Stop<f64>) -> Self {
         let [lower, upper] = range;
         let nearer = upper.min(-lower).max(0.0);
@@ -67,11 +67,11 @@ impl Turn<f64> {
     }
 }
 
-/// Where a joint is.
+/// Position of a joint in the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Site {
     Ball,
-    /// Its place among the state's hinges.
+    /// Index among the state's hinges.
     Hinge(usize),
 }
 
@@ -89,56 +89,56 @@ pub struct LimitLaw<S> {
     pub(super) lock: Option<Lock<S>>,
 }
 
-/// What the two stops of a joint, of bend and of twist or hinge, and its lock remember between steps.
+/// Memory between steps of the two stops of a joint (bend, and twist or hinge) and of its lock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitHistory<S> {
     pub(super) stops: [Past<S>; 2],
     pub(super) lock: LockPast<S>,
 }
 
-/// What a stop remembers between steps.
+/// Memory of a stop between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Past<S> {
     /// χ_m, rad; 0 inside the limit.
     pub(super) greatest: S,
-    /// Lost before the joint was last inside, less what counts as lost at the start, J.
+    /// Energy dissipated before the joint was last inside the range, less the amount at the start, J.
     pub(super) lost: S,
 }
 
-/// What limits and friction of a joint do at one instant.
+/// State of limits, friction and lock of a joint at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct LimitAction<S> {
     /// The joint.
     pub(crate) joint: Joint,
-    /// Bend, azimuth and twist of a ball joint, the angle of a hinge, rad; known where steps are committed.
+    /// Bend, azimuth and twist of a ball joint, or the angle of a hinge, rad; known at commits.
     pub(crate) angles: [S; 3],
-    /// χ, the greater of both stops', rad; 0 inside the limits.
+    /// χ, the larger excess of both stops, rad; 0 inside the limits.
     pub(crate) excess: S,
     /// Moment of the stops on the outer segment, space axes, N·m.
     pub(crate) stop: V3<S>,
-    /// That of the lock.
+    /// Moment of the lock on the outer segment.
     pub(super) lock: V3<S>,
-    /// Whether the lock is closed: 1, or 0.
+    /// 1 with a closed lock, else 0.
     pub(super) closed: S,
-    /// That of stops, lock and friction.
+    /// Moment of stops, lock and friction.
     pub(crate) moment: V3<S>,
-    /// Stored in stops and lock, J.
+    /// Energy stored in stops and lock, J.
     pub(crate) stored: S,
-    /// Lost in them since the start, J.
+    /// Energy dissipated in them since the start, J.
     pub(crate) lost: S,
-    /// Power that friction dissipates, W.
+    /// Power dissipated by friction, W.
     pub(super) dissipated: S,
 }
 
 impl<S: Copy> LimitHistory<S> {
-    /// The lock holds what it holds in `other`.
+    /// Copies the posture that the lock holds in `other`.
     pub(crate) fn hold_as(&mut self, other: &Self) {
         self.lock = other.lock;
     }
 }
 
 impl<S: Copy> LimitLaw<S> {
-    /// Laws of equal shape can be computed side by side.
+    /// Shape: laws of equal shape can be computed side by side.
     pub(super) fn shape(&self) -> (Joint, [usize; 4], Option<bool>) {
         let bend = self.bend.as_ref().map_or([0; 2], |bend| [bend.angle.len(), bend.stop.len()]);
         let turn = self.turn.as_ref().map_or(0, |turn| turn.stop.len());
@@ -146,7 +146,7 @@ impl<S: Copy> LimitLaw<S> {
         (self.joint, [bend[0], bend[1], turn, usize::from(self.friction.is_some())], slips)
     }
 
-    /// f applied to every number and the one in the same place of `other`, which has the same shape.
+    /// f applied to corresponding numbers of this and `other`, which has the same shape.
     pub(super) fn zip<A: Copy, T>(&self, other: &LimitLaw<A>, f: &impl Fn(S, A) -> T) -> LimitLaw<T> {
         LimitLaw {
             joint: self.joint,
@@ -173,7 +173,7 @@ impl<S: Copy> LimitLaw<S> {
     }
 }
 
-/// What a stop does.
+/// Reaction of a stop.
 struct Reply<S> {
     torque: S,
     stored: S,
@@ -185,7 +185,7 @@ impl<S: Scalar> Past<S> {
         Past { greatest: S::zero(), lost: S::zero() }
     }
 
-    /// At the start: what a joint is beyond a limit then is not lost.
+    /// Memory at the start: an initial excess counts as no loss.
     pub(super) fn start(stop: Option<(&Stop<S>, S)>) -> Self {
         stop.map_or(Past::none(), |(stop, excess)| {
             let greatest = excess.max(S::zero());
@@ -211,14 +211,14 @@ impl<S: Scalar> Past<S> {
     }
 }
 
-/// What a stop has lost up to an excess.
+/// Energy that a stop has dissipated up to an excess.
 #[inline(always)]
 fn lost<S: Scalar>(stop: &Stop<S>, greatest: S) -> S {
     stop.returned_to(greatest)[2]
 }
 
 impl<S: Scalar> LimitAction<S> {
-    /// Nothing yet.
+    /// No action.
     #[inline(always)]
     fn none(joint: Joint) -> Self {
         let (o, none) = (S::zero(), V3::zero());
@@ -236,7 +236,7 @@ impl<S: Scalar> LimitAction<S> {
         }
     }
 
-    /// With a stop that pushes along `moment`, what a torque of 1 N·m is, in the lanes where it is `near`.
+    /// Adds a stop that acts along `moment`, the moment of a torque of 1 N·m, in the lanes where it is `near`.
     #[inline(always)]
     fn push(&mut self, near: S::Mask, moment: V3<S>, excess: S, reply: &Reply<S>) {
         self.stop += V3::select(near, moment * reply.torque, V3::zero());
@@ -247,8 +247,8 @@ impl<S: Scalar> LimitAction<S> {
 }
 
 impl<S: Scalar> LimitLaw<S> {
-    /// What it does, and in which lanes it does anything. At an accepted step the history first takes over
-    /// the present angles.
+    /// Action, and the lanes in which there is any. At an accepted step the history is first updated with the present
+    /// angles.
     #[inline(always)]
     pub(super) fn act(&self, at: &Instant<'_, S>, past: &mut LimitHistory<S>) -> (LimitAction<S>, S::Mask) {
         let accepted = at.accepted;
@@ -286,7 +286,7 @@ impl<S: Scalar> LimitLaw<S> {
         Pair { axes: (&at.k.axes[inner], &at.k.axes[outer]), omega, time: at.frames.time, accepted: at.accepted }
     }
 
-    /// What it remembers of a body that stands where it is: stops without loss, the lock closed.
+    /// Memory in the present position: stops without loss, the lock closed.
     pub(super) fn start(&self, at: &Instant<'_, S>) -> LimitHistory<S> {
         let held = |_: &Lock<S>| LockPast::start(&self.pair(at, V3::zero()));
         LimitHistory {
@@ -321,7 +321,7 @@ impl<S: Scalar> LimitLaw<S> {
         acts
     }
 
-    /// The stops of bend and turn, with χ of each.
+    /// Stops of bend and turn, with χ of each.
     pub(super) fn excess(&self, at: &Instant<'_, S>) -> [Option<(&Stop<S>, S)>; 2] {
         let (k, (inner, outer)) = (at.k, self.segments);
         let pose = self.triads.pose(&k.axes[inner], &k.axes[outer]);
@@ -350,7 +350,7 @@ impl<S: Scalar> Bend<S> {
 }
 
 impl<S: Scalar> Turn<S> {
-    /// χ, and the sign of the limit that it is beyond.
+    /// χ, and the sign of the exceeded limit.
     #[inline(always)]
     fn excess(&self, angle: S) -> (S, S) {
         let [below, above] = [self.range[0] - angle, angle - self.range[1]];

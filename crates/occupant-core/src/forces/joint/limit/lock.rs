@@ -11,7 +11,7 @@ use crate::forces::element::passes;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3, v3};
 
-/// An open lock closes after a joint was slower than its speed for so long, s.
+/// Time below the relock speed after which an open lock closes, s.
 const CALM_S: f64 = 5e-3;
 
 /// A lock.
@@ -21,32 +21,32 @@ pub struct Lock<S> {
     pub until: S,
     /// K, N·m/rad.
     pub stiffness: S,
-    /// Whether it slips where others open.
+    /// Whether the lock slips instead of opening.
     pub slips: bool,
-    /// It closes again below this speed, rad/s; never at 0.
+    /// Speed below which it closes again, rad/s; 0: never.
     pub relock_below: S,
 }
 
-/// What a lock remembers between steps; all 0 where there is none.
+/// Memory of a lock between steps; all 0 without a lock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LockPast<S> {
-    /// 1 if it is closed, −1 if it is open and the joint slow enough to close it, 0 if it is open and the joint fast.
+    /// 1: closed; −1: open, below the relock speed; 0: open, above it.
     pub(super) closed: S,
-    /// The posture that it holds.
+    /// Posture that the lock holds.
     pub(super) held: Posture<S>,
-    /// When it was last closed or turned fast, s.
+    /// Latest time at which it was closed or turned fast, s.
     pub(super) restless: S,
-    /// How fast the joint turns while it is open, rad/s.
+    /// Speed of the joint while the lock is open, rad/s.
     pub(super) speed: S,
-    /// Lost in it since the start, J.
+    /// Energy dissipated since the start, J.
     pub(super) lost: S,
 }
 
-/// Two segments that a joint holds together.
+/// The two segments of a joint.
 pub(super) struct Pair<'a, S> {
-    /// Axes of the inner and the outer one.
+    /// Axes of the inner and the outer segment.
     pub(super) axes: (&'a M3<S>, &'a M3<S>),
-    /// Of the outer one relative to the inner one, space axes, rad/s.
+    /// Angular velocity of the outer segment relative to the inner, space axes, rad/s.
     pub(super) omega: V3<S>,
     pub(super) time: S,
     pub(super) accepted: bool,
@@ -64,7 +64,7 @@ impl<S: Copy> Lock<S> {
 }
 
 impl<S> LockPast<S> {
-    /// f called with every number and the one in the same place of `other`.
+    /// Calls f with each pair of corresponding numbers of two memories.
     pub(super) fn each<A>(&mut self, other: &mut LockPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
         let (Posture(held), Posture(others)) = (&mut self.held, &mut other.held);
         f(&mut self.closed, &mut other.closed);
@@ -80,7 +80,7 @@ impl<S> LockPast<S> {
 }
 
 impl<A: Copy> LockPast<A> {
-    /// The same with every number replaced by f of it, in the order of [`LockPast::each`].
+    /// Memory with each number replaced by f of it, in the order of [`LockPast::each`].
     pub(super) fn map<S>(&self, f: &mut impl FnMut(A) -> S) -> LockPast<S> {
         let closed = f(self.closed);
         let Posture(M3 { x, y, z }) = self.held;
@@ -91,8 +91,8 @@ impl<A: Copy> LockPast<A> {
 }
 
 impl<S: Scalar<Mask = bool>> LockPast<S> {
-    /// Where between two times a lock that closes was due to, or a joint to turn slow or fast; one that opens does not remember its
-    /// moment.
+    /// Fraction of the step at which a lock was due to close, or a joint crossed the relock speed; a lock that opens
+    /// does not record its time.
     pub(super) fn due(&self, now: &Self, lock: &Lock<S>, times_s: [S; 2]) -> Option<S> {
         let is_calm = |past: &Self| past.closed.lt(S::zero());
         let closes = || passes(self.restless + S::of(CALM_S), times_s[0], times_s[1]);
@@ -107,13 +107,13 @@ impl<S: Scalar<Mask = bool>> LockPast<S> {
 }
 
 impl<S: Scalar> LockPast<S> {
-    /// Of no lock.
+    /// Memory without a lock.
     pub(super) fn none() -> Self {
         let (o, none) = (S::zero(), V3::zero());
         LockPast { closed: o, held: Posture(M3 { x: none, y: none, z: none }), restless: o, speed: o, lost: o }
     }
 
-    /// Closed where the joint is.
+    /// Closed in the present posture.
     pub(super) fn start(pair: &Pair<'_, S>) -> Self {
         let (k, l) = pair.axes;
         LockPast { closed: S::one(), held: Posture::new(k, l, V3::zero()), ..LockPast::none() }
@@ -126,8 +126,8 @@ impl<S: Scalar> LockPast<S> {
 }
 
 impl<S: Scalar> Lock<S> {
-    /// What it does, and in which lanes it is closed. At an accepted step it first takes over the present
-    /// posture.
+    /// Action of the lock, and the lanes in which it is closed. At an accepted step it first updates the memory with
+    /// the present posture.
     #[inline(always)]
     pub(super) fn act(&self, pair: &Pair<'_, S>, past: &mut LockPast<S>, action: &mut LimitAction<S>) -> S::Mask {
         if pair.accepted {
@@ -167,7 +167,7 @@ impl<S: Scalar> Lock<S> {
         past.speed = S::select(stays, o, speed);
     }
 
-    /// Moment on the outer segment, space axes, and what is stored; nothing if the lock is open.
+    /// Moment on the outer segment, space axes, and stored energy; zero if the lock is open.
     #[inline(always)]
     pub(super) fn respond(&self, pair: &Pair<'_, S>, past: &LockPast<S>) -> (V3<S>, S) {
         let (k, l) = pair.axes;

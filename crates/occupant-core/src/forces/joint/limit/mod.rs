@@ -31,29 +31,30 @@ use lock::LockPast;
 use placed_text::Problems;
 use triads::Triads;
 
-/// Places of what the stops store and of what they have lost.
+/// Places of the energies that the stops store and have dissipated.
 const STORED_AT: usize = 3;
 const LOST_AT: usize = 4;
 
-/// Excess at which the slope of a stop's torque is taken for estimates of the step, rad: 30°.
+/// Excess angle at which the slope of a stop's torque is evaluated for step estimates, rad: 30°.
 const ESTIMATE_RAD: f64 = 0.52;
 
-/// Limits of other joints, or laws with other numbers of points.
+/// Limits at other joints, or laws with other numbers of points.
 const OTHER_LIMITS: Unlike = Unlike("other joints have elastic limits, or their curves have other numbers of points");
 
 /// The centre axis ĉ of a joint and the direction x̂ of azimuth 0, in the inner segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Centre {
-    /// Along the outer segment and ahead, both turned about Y: a positive pitch brings a head forward and a hanging limb back.
+    /// Centre along the outer segment, azimuth 0 forward, both turned about Y: positive pitch moves a head forward and
+    /// a hanging limb backward.
     Pitch {
-        /// Turn about Y of the inner segment.
+        /// Rotation about Y of the inner segment.
         pitch_rad: f64,
     },
-    /// Two directions, for a left joint those of the right one.
+    /// Two directions; for a left joint, those of the right joint.
     Axes {
         /// ĉ, of any length.
         axis: Vector3<f64>,
-        /// Where azimuths count from.
+        /// Direction of azimuth 0.
         forward: Vector3<f64>,
     },
 }
@@ -61,26 +62,26 @@ pub enum Centre {
 /// Limits, friction and lock of one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
-    /// Where they act.
+    /// The joint.
     pub joint: Joint,
-    /// Where they count from.
+    /// Reference directions of the angles.
     pub centre: Centre,
-    /// Of a ball joint's bend.
+    /// Limit of a ball joint's bend.
     pub bend: Option<Bend<f64>>,
-    /// Of a ball joint's twist or a hinge's angle.
+    /// Limit of a ball joint's twist or of a hinge's angle.
     pub turn: Option<Turn<f64>>,
     /// Dry friction.
     pub friction: Option<Friction<f64>>,
-    /// Held until a moment is reached.
+    /// Lock: holds until a moment is reached.
     pub lock: Option<Lock<f64>>,
 }
 
-/// The most that the limit of one of two joints of a neck lets it bend ahead and back together, rad: GEBOD's 50°, with room for
+/// Largest total bend forward and back that the limit of one of two neck joints permits, rad: GEBOD's 50°, plus
 /// rounding.
 const HALF_A_NECK_RAD: f64 = 0.872_666;
 
 impl Limits {
-    /// Whether it limits the bend as if there were another joint in the neck.
+    /// Whether the limit fits one of two neck joints rather than a single one.
     pub(crate) fn is_of_half_a_neck(&self) -> bool {
         let both = |bend: &Bend<f64>| [0.0, PI].iter().map(|angle| bend.angle.around(*angle).0).sum::<f64>();
         self.bend.as_ref().is_some_and(|bend| both(bend) < HALF_A_NECK_RAD)
@@ -260,8 +261,8 @@ fn law(body: &Body, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
     }
 }
 
-/// The stops' steepest torque up to [`ESTIMATE_RAD`], friction at its steepest and the lock, about the axes that yield
-/// most.
+/// Steepest torque of the stops up to [`ESTIMATE_RAD`], friction at its steepest and the lock, about the axes that
+/// yield most.
 fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     let row = &data.tree()[limits.joint];
     let [inner, outer] = row.between().map(Segment::index);

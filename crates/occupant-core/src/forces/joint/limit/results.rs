@@ -123,10 +123,10 @@ impl Reported for JointLimits {
     }
 }
 
-/// Numbers of a lock.
+/// Count of numbers of a lock.
 const LOCK: usize = 13;
 
-/// Exchanges what locks remember; nothing is written where there is none.
+/// Reads or writes the memory of the locks; nothing is written without a lock.
 fn keep_locks(past: &[LimitHistory<f64>], is_step: bool, file: &mut dyn Archive) -> Vec<f64> {
     let number = if is_step { 49 } else { 48 };
     let meaning = "of each joint with limits, if any has a lock: 1 if it is closed, -1 if it is open and the joint slow, 0 if it is open; \

@@ -104,7 +104,7 @@ fn moments_are_the_gradient_of_the_stored_energy() {
     assert!(worst < 1e-9, "{worst:e}");
 }
 
-/// The spring of a lock is as stiff in all directions, and a gradient: of a single turn by ρ it gives back −Kρ.
+/// The spring of a lock has equal stiffness in all directions and a potential: a rotation by ρ gives the moment −Kρ.
 #[test]
 fn a_lock_is_a_spring_in_all_directions() {
     let (mut numbers, mut worst) = (Numbers(21), 0.0_f64);
@@ -185,7 +185,7 @@ fn nothing_jumps_where_the_azimuth_does() {
     assert!((bend.angle.around(270_f64.to_radians() - 2.0 * PI).0.to_degrees() - 38.0).abs() < 1e-12);
 }
 
-/// Straight and fully bent postures have no direction: no 0/0, in dual numbers either.
+/// Straight and fully bent postures have no azimuth: no 0/0, with dual numbers either.
 #[test]
 fn straight_and_folded_joints_have_finite_torques_and_slopes() {
     let one = M3::of(&Matrix3::identity());
@@ -208,7 +208,7 @@ fn straight_and_folded_joints_have_finite_torques_and_slopes() {
     }
 }
 
-/// Any way of the angle takes as much from outside as it stores and loses, whatever was committed on the way.
+/// Along any path of the angle, the work done equals stored plus dissipated energy, regardless of commits on the way.
 #[test]
 fn work_is_what_is_stored_and_lost() {
     let mut numbers = Numbers(5);
@@ -237,7 +237,8 @@ fn work_is_what_is_stored_and_lost() {
     }
 }
 
-/// A body afloat without gravity and damping whose head nods forward at so many rad/s, with these changes of its joints.
+/// A floating body without gravity and damping, its head nodding forward at this rate, rad/s, with these changes of its
+/// joints.
 pub(in crate::forces::joint) fn nodding(rate: f64, change: impl FnOnce(&mut Joints)) -> Model {
     let mut joints = Joints::free(&TTI12);
     change(&mut joints);
@@ -250,7 +251,7 @@ pub(in crate::forces::joint) fn nodding(rate: f64, change: impl FnOnce(&mut Join
     Model::new(Setup { integrator, ..placed(case, [0.0; DOF], rates, 0.12) }).unwrap()
 }
 
-/// The same with this in the neck.
+/// The same with this limit in the neck.
 fn with_neck(rate: f64, neck: Limits) -> Model {
     nodding(rate, |joints| joints.limits.push(neck))
 }
@@ -260,7 +261,7 @@ pub(in crate::forces::joint) fn free_neck() -> Limits {
     Limits { joint: NECK, centre: Centre::Pitch { pitch_rad: 0.0 }, bend: None, turn: None, friction: None, lock: None }
 }
 
-/// A lock that opens at so many N·m, which it reaches at 2°.
+/// A lock that opens at this moment, N·m, which it reaches at 2°.
 fn lock(until: f64) -> Lock<f64> {
     Lock { until, stiffness: until / 2_f64.to_radians(), slips: false, relock_below: 0.0 }
 }
@@ -302,14 +303,14 @@ fn friction_takes_energy_and_brings_the_joint_to_rest() {
     assert!((begin.kinetic_j - end.kinetic_j - end.lost_j[DAMPING]).abs() < 1e-5 * begin.kinetic_j);
 }
 
-/// What the neck does at every output, and how well the run kept its energy.
+/// Actions of the neck at every output, and the energy error of the run.
 fn actions(model: &Model) -> (Vec<(f64, LimitAction<f64>)>, f64) {
     let mut list = Vec::new();
     let outcome = simulate(model, Watch(|s: &Sample<'_>| list.push((s.time_s, s.actions.limits[0])))).unwrap();
     (list, outcome.energy.balance_error)
 }
 
-/// Small swings of a head on a locked neck have the period that stiffness and inertia make.
+/// Small oscillations of a head on a locked neck have the period given by stiffness and inertia.
 #[test]
 fn a_locked_joint_swings_in_its_period() {
     let closed = Lock { stiffness: 2000.0, ..lock(1e30) };

@@ -22,7 +22,7 @@ pub(super) struct Triads<S> {
     hand: S,
 }
 
-/// Where the outer triad stands to the inner one; vectors in space axes.
+/// Pose of the outer triad relative to the inner one; vectors in space axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pose<S> {
     inner: M3<S>,
@@ -36,8 +36,8 @@ pub(super) struct Pose<S> {
 }
 
 impl Triads<f64> {
-    /// Those of a joint of `body`, in the joint's axes on both segments. ĉ and ẑ point along the outer one's Z away from the joint
-    /// unless the centre says otherwise.
+    /// Triads of a joint of `body`, in the joint's axes on both segments. ĉ and ẑ point along the outer segment's Z
+    /// away from the joint unless the centre is given.
     pub(super) fn new(body: &Body, joint: Joint, centre: &Centre) -> Self {
         let (row, place) = (&body.tree[joint], body.place(joint));
         let along = if body.tree[row.distal].hangs() { -1.0 } else { 1.0 };
@@ -76,7 +76,7 @@ impl<S: Copy> Triads<S> {
 }
 
 impl<S: Scalar> Triads<S> {
-    /// For the axes of the two segments.
+    /// Pose for these axes of the two segments.
     #[inline(always)]
     pub(super) fn pose(&self, k: &M3<S>, l: &M3<S>) -> Pose<S> {
         let inner = M3 { x: k.out(self.inner.x), y: k.out(self.inner.y), z: k.out(self.inner.z) };
@@ -103,7 +103,7 @@ impl<S: Scalar> Pose<S> {
         self.sine_squared().sqrt().atan2(self.along.z)
     }
 
-    /// φ, −π to π; 0 at θ = 0, where there is none.
+    /// φ, −π to π; 0 at θ = 0, where it is undefined.
     #[inline(always)]
     pub(super) fn azimuth(&self) -> S {
         self.along.y.atan2(self.along.x)
@@ -115,13 +115,13 @@ impl<S: Scalar> Pose<S> {
         self.turn[0].atan2(self.turn[1])
     }
 
-    /// Where θ is greater than the angle with this cosine.
+    /// Lanes where θ exceeds the angle with this cosine.
     #[inline(always)]
     pub(super) fn is_bent_beyond(&self, cosine: S) -> S::Mask {
         self.along.z.lt(cosine)
     }
 
-    /// Where |τ| is greater than the angle with this cosine.
+    /// Lanes where |τ| exceeds the angle with this cosine.
     #[inline(always)]
     pub(super) fn is_twisted_beyond(&self, cosine: S) -> S::Mask {
         self.turn[1].lt(cosine * (S::one() + self.along.z))

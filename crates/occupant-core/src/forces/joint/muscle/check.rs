@@ -3,7 +3,7 @@
 use super::{Joints, Muscle};
 use placed_text::Problems;
 
-/// Shorter delays of a reflex would only make the equations stiff, s.
+/// Shortest delay of a reflex, s: shorter ones make the equations stiff without effect.
 const LEAST_DELAY_S: f64 = 1e-3;
 
 pub(super) fn check(joints: &Joints, muscle: &Muscle, problems: &mut Problems) {

@@ -24,33 +24,33 @@ use crate::motion::state::State;
 use crate::motion::vector::{M3, V3};
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// A muscle as data.
+/// Muscle data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Muscle {
-    /// Where it acts.
+    /// The joint.
     pub joint: Joint,
     /// K, N·m/rad.
     pub stiffness_n_m: f64,
     /// D, N·m·s/rad.
     pub damping_n_m_s: f64,
-    /// What it does late; none without reflexes.
+    /// Delayed feedback; none without reflexes.
     pub reflex: Option<Reflex>,
     /// T_max, N·m.
     pub most_n_m: f64,
-    /// The posture that is held, from the joint's axes on the proximal segment to those on the distal one; that of the start if
-    /// none.
+    /// Posture to hold, as the rotation from the joint's axes on the proximal segment to those on the distal one; the
+    /// initial posture if none.
     pub hold: Option<UnitQuaternion<f64>>,
-    /// T₀ on the distal segment, along the joint's axes on the proximal one, N·m.
+    /// T₀ on the distal segment, in the joint's axes on the proximal one, N·m.
     pub torque_n_m: Vector3<f64>,
     /// a₀, 0 to 1.
     pub tone: f64,
     /// τ, s.
     pub rise_s: f64,
-    /// t_on and t_off, s; [`NEVER_S`] for what does not happen.
+    /// t_on and t_off, s; [`NEVER_S`] for neither.
     pub times_s: [f64; 2],
 }
 
-/// Feedback of a muscle.
+/// Delayed feedback of a muscle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflex {
     /// K_f, N·m/rad.
@@ -61,10 +61,10 @@ pub struct Reflex {
     pub delay_s: f64,
 }
 
-/// N·m of which the numbers of reflexes in the state are 1.
+/// Moment for which the state variable of a reflex is 1, N·m.
 const UNIT_N_M: f64 = 100.0;
 
-/// A time after every run, s.
+/// A time after the end of every run, s.
 pub const NEVER_S: f64 = 1e30;
 
 /// Constants of a muscle.
@@ -74,11 +74,11 @@ pub struct MuscleLaw<S> {
     /// Inner and outer segment.
     pub(super) segments: (usize, usize),
     pub(super) held: Posture<S>,
-    /// Whether it holds the posture of the start and nothing else.
+    /// Whether it holds the initial posture and applies no torque.
     holds_start: bool,
     stiffness: S,
     damping: S,
-    /// K_f, D_f and τ_f, and where s stands among the numbers of the state that elements own.
+    /// K_f, D_f and τ_f, and the index of s among the state variables that elements own.
     reflex: Option<([S; 3], usize)>,
     most: S,
     /// T₀, axes of the inner segment.
@@ -90,7 +90,7 @@ pub struct MuscleLaw<S> {
     times: [S; 2],
 }
 
-/// What a muscle does at one instant.
+/// State of a muscle at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct MuscleAction<S> {
     /// a.
@@ -101,12 +101,12 @@ pub struct MuscleAction<S> {
     pub(super) power: S,
     /// s, axes of the inner segment, N·m.
     felt: V3<S>,
-    /// K_f ρ + D_f ω there, N·m.
+    /// K_f ρ + D_f ω in those axes, N·m.
     asked: V3<S>,
 }
 
 impl MuscleLaw<f64> {
-    /// One that holds the posture that it is told to; that of the start is not known yet.
+    /// Law for a given posture; the initial posture is not known yet.
     pub(super) fn new(body: &Body, muscle: &Muscle) -> Self {
         let (row, JointPlace { proximal, distal }) = (&body.tree[muscle.joint], body.place(muscle.joint));
         let posture = proximal.axes * muscle.hold.unwrap_or_default() * distal.axes.inverse();
@@ -136,7 +136,7 @@ impl MuscleLaw<f64> {
 }
 
 impl MuscleLaw<f64> {
-    /// Appends the numbers of its reflex as they begin.
+    /// Appends the initial state variables of its reflex.
     pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
         if let Some((_, first)) = &mut self.reflex {
             *first = numbers.len();
@@ -144,8 +144,8 @@ impl MuscleLaw<f64> {
         }
     }
 
-    /// Takes over, at the start of a body that has settled, the moment that its outer segment needs there to rest: one that
-    /// holds the posture of the start by its tone.
+    /// Sets, at the start with a settled body, the moment that the outer segment needs to stay at rest, for a muscle
+    /// that holds the initial posture by its tone.
     pub(crate) fn carry(&mut self, k: &Kinematics<f64>, moment: impl Fn(usize) -> V3<f64>) {
         let (inner, outer) = self.segments;
         if self.holds_start && self.tone > 0.0 {
@@ -156,7 +156,7 @@ impl MuscleLaw<f64> {
 }
 
 impl<S: Copy> MuscleLaw<S> {
-    /// Whether another one differs by numbers alone.
+    /// Whether another law differs in numbers only.
     pub(super) fn is_like<A>(&self, other: &MuscleLaw<A>) -> bool {
         self.joint == other.joint && self.reflex.is_some() == other.reflex.is_some()
     }
@@ -202,7 +202,7 @@ impl<S: Scalar> MuscleLaw<S> {
         MuscleAction { activation, moment, power: moment.dot(omega), felt, asked }
     }
 
-    /// Writes the rates of the numbers of its reflex.
+    /// Writes the rates of the reflex's state variables.
     #[inline(always)]
     pub(super) fn flow(&self, action: &MuscleAction<S>, rates: &mut [S]) {
         let Some(([.., delay], first)) = self.reflex else { return };
@@ -212,7 +212,7 @@ impl<S: Scalar> MuscleLaw<S> {
         }
     }
 
-    /// a at a time.
+    /// Activation a at a time.
     #[inline(always)]
     fn activation(&self, time: S) -> S {
         let [begins, ends] = self.times;
@@ -222,7 +222,7 @@ impl<S: Scalar> MuscleLaw<S> {
     }
 }
 
-/// s of a state; 0 of a body that is only being placed.
+/// Delayed moment s in a state; 0 while the body is being placed.
 #[inline(always)]
 fn late<S: Scalar>(state: &State<S>, first: usize) -> V3<S> {
     let Some([x, y, z]) = state.own().get(first..first + 3) else { return V3::zero() };

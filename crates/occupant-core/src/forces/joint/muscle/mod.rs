@@ -20,7 +20,7 @@ use law::{MuscleAction, MuscleLaw};
 use occupant_units::unit::Unit;
 use placed_text::Problems;
 
-/// Place of the work that muscles take up; what they do is its negative.
+/// Index of the work that muscles absorb; the work that they do is its negative.
 const WORK: usize = 4;
 
 const OTHER_MUSCLES: Unlike = Unlike("other joints have muscles or reflexes");
@@ -55,7 +55,7 @@ impl Element for Muscles {
         data.muscles.iter().map(|muscle| MuscleLaw::new(body, muscle)).collect()
     }
 
-    /// The posture that is held is that of the start unless a muscle is told another.
+    /// Muscles hold the initial posture unless another is given.
     fn begin(law: &mut Vec<MuscleLaw<f64>>, data: &Joints, _: &Body, at: &Instant<'_, f64>, _: &mut Problems) {
         for (muscle, _) in law.iter_mut().zip(&data.muscles).filter(|(_, said)| said.hold.is_none()) {
             let (inner, outer) = muscle.segments;
@@ -114,7 +114,7 @@ impl Element for Muscles {
         }
     }
 
-    /// Spring and damper of muscles that are wholly active.
+    /// Spring and damper of fully active muscles.
     fn rates(
         data: &Joints,
         _body: &Body,

@@ -11,7 +11,7 @@ use crate::quantity::Quantity;
 type Of = Quantity<OneOf<Muscles>>;
 
 impl MuscleAction<f64> {
-    /// Magnitude of its moment, N·m.
+    /// Magnitude of the moment, N·m.
     fn moment_n_m(&self) -> f64 {
         self.moment.norm_squared().sqrt()
     }

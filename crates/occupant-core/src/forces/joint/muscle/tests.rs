@@ -25,7 +25,7 @@ fn decay_is_the_exponential() {
 /// Time, energies and muscles at an output.
 type Output = (f64, EnergyLedger, Vec<MuscleAction<f64>>);
 
-/// What every output of a run has, and how well the run kept its energy.
+/// Outputs of a run, and its energy error.
 fn run(model: &Model) -> (Vec<Output>, f64) {
     let mut list = Vec::new();
     let watch = Watch(|s: &Sample<'_>| list.push((s.time_s, s.energy, s.actions.muscles.clone())));
@@ -33,12 +33,12 @@ fn run(model: &Model) -> (Vec<Output>, f64) {
     (list, outcome.energy.balance_error)
 }
 
-/// Of a neck: it wakes from 30 ms after 10 ms until 80 ms.
+/// Neck muscle that activates over 30 ms from 10 ms until 80 ms.
 fn waking() -> Muscle {
     Muscle { most_n_m: 12.0, tone: 0.2, rise_s: 0.01, times_s: [0.04, 0.08], ..tense() }
 }
 
-/// Wholly active and without a limit.
+/// Fully active, without a limit.
 fn tense() -> Muscle {
     Muscle {
         joint: NECK,
@@ -54,12 +54,12 @@ fn tense() -> Muscle {
     }
 }
 
-/// A head that nods at so many rad/s against a muscle.
+/// Head that nods at this rate, rad/s, against a muscle.
 fn held(rate: f64, muscle: Muscle) -> Model {
     nodding(rate, |joints| joints.muscles.push(muscle))
 }
 
-/// ȧ = (u − a)/τ, taken in small steps.
+/// ȧ = (u − a)/τ, integrated in small steps.
 #[test]
 fn the_activation_follows_its_aim() {
     let (list, _) = run(&held(5.0, waking()));
@@ -88,7 +88,7 @@ fn no_muscle_is_stronger_than_its_limit_and_its_work_is_kept() {
     assert!(taken.abs() > 0.5 && (first.kinetic_j - last.kinetic_j - taken).abs() < 1e-5, "{taken}");
 }
 
-/// Wholly active and without a limit it is a spring and a damper.
+/// Fully active and without a limit, it is a spring with a damper.
 #[test]
 fn a_tense_muscle_is_a_spring_and_a_damper() {
     let muscle = held(10.0, tense());

@@ -14,7 +14,7 @@ impl Numbers {
     }
 }
 
-/// Numbers of every size, and those at which something happens.
+/// Numbers of all magnitudes, and special values.
 fn numbers(scale: f64) -> Vec<f64> {
     let mut all = vec![
         0.0,
@@ -67,7 +67,7 @@ fn gather<L: Lanes>(numbers: &[f64]) -> L {
     lanes
 }
 
-/// The bits, or one pattern for all that are not numbers: their sign and payload mean nothing.
+/// Bits, or one pattern for all NaNs: their sign and payload are irrelevant.
 fn bits(x: f64) -> u64 {
     if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() }
 }

@@ -32,7 +32,7 @@ pub(crate) enum BarrierSection {
 pub(crate) struct WallSection {
     /// A point on its face.
     pub(crate) at: [Length; 2],
-    /// Direction that its face looks, to the right of x; 180 deg if absent: towards traffic along x.
+    /// Outward direction of its face, to the right of x; 180 deg if absent: towards traffic along x.
     pub(crate) facing: Option<Angle>,
     /// "concrete": smooth concrete along a road, friction 0.2.
     #[schemars(extend("enum" = ["concrete"]))]
@@ -84,7 +84,7 @@ pub(crate) struct RailSection {
     pub(crate) preset: Option<String>,
     /// Its two ends.
     pub(crate) line: [[Length; 2]; 2],
-    /// Side that is struck, seen from its first end; the side on which the first vehicle starts if absent.
+    /// Struck side, seen from its first end; the side on which the first vehicle starts if absent.
     pub(crate) traffic: Option<Hand>,
     /// Height of its resultant force.
     pub(crate) height: Option<Length<POSITIVE>>,
@@ -133,7 +133,7 @@ pub(crate) struct PostsSection {
 pub(crate) struct CushionSection {
     /// Middle of its nose.
     pub(crate) at: [Length; 2],
-    /// Direction that its nose looks, to the right of x; 180 deg if absent.
+    /// Outward direction of its nose, to the right of x; 180 deg if absent.
     pub(crate) facing: Option<Angle>,
     /// "en1317-3-80" or "en1317-3-100": estimates that stop the cars of EN 1317-3 at 80 and 100 km/h. Keys that are given
     /// replace its values; without a preset all of width, length, mass, stroke and force are needed.
