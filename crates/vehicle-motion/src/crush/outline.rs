@@ -91,6 +91,12 @@ impl Outline {
         crossed.map_or_else(shallow, |(_, face)| face)
     }
 
+    /// How far a point is outside in plan, m, negative inside, with the normal of the edge there.
+    pub fn nearest(&self, point: &V3) -> (f64, [f64; 2]) {
+        let over = self.edges.iter().map(|edge| (edge.over_m([point.x, point.y]), edge.normal));
+        over.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, [1.0, 0.0]))
+    }
+
     /// How far a point is outside in plan, m; negative inside.
     pub fn gap_m(&self, point: &V3) -> f64 {
         self.edges.iter().map(|edge| edge.over_m([point.x, point.y])).fold(f64::NEG_INFINITY, f64::max)
