@@ -108,9 +108,8 @@ fn a_roof_strikes_a_wall() {
         World { cars, barriers, ..World::default() }.run(0.4).unwrap()
     };
     let (free, struck) = (run(Vec::new()), run(vec![Barrier::Wall(wall)]));
-    let farthest = |outcome: &Outcome| {
-        outcome.rides[0].stations().iter().map(|station| station.position_m.y).fold(0.0, f64::max)
-    };
+    let farthest =
+        |outcome: &Outcome| outcome.rides[0].stations().iter().map(|station| station.position_m.y).fold(0.0, f64::max);
     assert!(farthest(&free) > 2.5, "{}", farthest(&free));
     // the roof stands 0.9 m over the centre of gravity
     assert!((0.6..1.4).contains(&farthest(&struck)), "{}", farthest(&struck));
