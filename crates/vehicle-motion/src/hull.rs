@@ -3,6 +3,7 @@
 use crate::V3;
 use crate::body::Body;
 use crate::chassis::Chassis;
+use crate::crush::outline::Outline;
 use crate::crush::touch::Pose;
 use crate::ground::Ground;
 use crate::state::State;
@@ -21,8 +22,9 @@ const EDGE_BOTTOMS_M: f64 = 0.05;
 const FACES: usize = 4;
 /// Depth above which an edge in first contact is ignored until it is out again, as it entered through the tread, m.
 const FRESH_M: f64 = 0.03;
-/// Lean (sine) above which a vehicle may stand on the edges of its wheels.
+/// A vehicle that leans more (sine) may stand on the edges of its wheels, and meet barriers with its roof; that grows over so much.
 const LEANS: f64 = 0.6;
+const FADES: f64 = 0.2;
 
 #[derive(Clone, Copy, Debug)]
 struct Sphere {
@@ -30,12 +32,32 @@ struct Sphere {
     radius_m: f64,
     stiffness: f64,
     is_roof: bool,
+    /// Whether it stands higher than the outline that meets barriers.
+    is_high: bool,
+}
+
+/// A rigid barrier that the part of a hull above the outline may meet.
+#[derive(Clone, Debug)]
+pub(crate) struct Obstacle {
+    pub outline: Outline,
+    pub at_m: V3,
+    pub friction: f64,
+}
+
+impl Obstacle {
+    /// Way of a point to its surface in plan, m, negative inside, and the outward normal there.
+    fn distance(&self, place_m: &V3) -> (f64, V3) {
+        let from_it = place_m - self.at_m;
+        let (gap_m, [x, y]) = self.outline.nearest(&from_it);
+        (gap_m, V3::new(x, y, 0.0))
+    }
 }
 
 /// The hull of a vehicle.
 #[derive(Clone, Debug)]
 pub(crate) struct Hull {
     spheres: Vec<Sphere>,
+    obstacles: Vec<Obstacle>,
     friction: f64,
     returned: f64,
     /// Free radius of the wheels, m.
@@ -72,6 +94,8 @@ struct Dip {
     depth_m: f64,
     normal: V3,
     stiffness: f64,
+    /// Friction of a barrier; none: that of the hull and the ground.
+    friction: Option<f64>,
     is_edge: bool,
     /// Weight.
     counts: f64,
@@ -91,29 +115,70 @@ impl Dip {
 }
 
 impl Hull {
-    pub fn of(body: &Body, height_m: f64, wheel_m: f64) -> Self {
+    pub fn of(body: &Body, height_m: f64, wheel_m: f64, obstacles: Vec<Obstacle>) -> Self {
         let spheres = body.hull.iter().map(|ball| Sphere {
             place_m: V3::new(ball.place_m[0], ball.place_m[1], height_m - ball.place_m[2]),
             radius_m: ball.radius_m,
             stiffness: ball.stiffness_n_per_m,
             is_roof: ball.is_roof,
+            is_high: ball.place_m[2] > body.band_m[1],
         });
         let spheres: Vec<Sphere> = spheres.collect();
         let reach_m = spheres.iter().map(|sphere| sphere.place_m.norm() + sphere.radius_m).fold(0.0, f64::max);
-        Hull { reach_m, spheres, friction: body.hull_friction, returned: body.hull_returned, wheel_m }
+        Hull { reach_m, spheres, obstacles, friction: body.hull_friction, returned: body.hull_returned, wheel_m }
     }
 
     pub fn memory(&self) -> HullMemory {
         HullMemory {
-            most_m: vec![0.0; self.spheres.len() + 8 * FACES],
-            before_m: vec![0.0; self.spheres.len() + 8 * FACES],
+            most_m: vec![0.0; self.memories()],
+            before_m: vec![0.0; self.memories()],
             is_near: false,
             clear_m: 0.0,
         }
     }
 
-    /// Least height of a sphere over the ground, m.
+    /// Depths to remember: of spheres in the ground, of edges of wheels by face, of spheres in each barrier.
+    fn memories(&self) -> usize {
+        self.spheres.len() * (1 + self.obstacles.len()) + 8 * FACES
+    }
+
+    /// Least way of a sphere to the ground or a barrier, m.
     pub fn clear_m(&self, state: &State, ground: &Ground) -> f64 {
+        let mut least_m = self.over_m(state, ground);
+        let pose = state.pose();
+        self.meets(&pose, &mut |dip| least_m = least_m.min(-dip.depth_m));
+        least_m
+    }
+
+    /// Spheres above the outline in barriers, of a vehicle that leans: of one that stands the outline tells all.
+    fn meets(&self, pose: &Pose, meet: &mut dyn FnMut(Dip)) {
+        let counts = ((pose.axes[(2, 1)].abs() - LEANS) / FADES).clamp(0.0, 1.0);
+        if counts == 0.0 {
+            return;
+        }
+        for (i, obstacle) in self.obstacles.iter().enumerate() {
+            let first = self.spheres.len() * (1 + i) + 8 * FACES;
+            for (j, sphere) in self.spheres.iter().enumerate().filter(|(_, sphere)| sphere.is_high) {
+                let centre_m = pose.at_m + pose.axes * sphere.place_m;
+                let (distance, normal) = obstacle.distance(&centre_m);
+                let (radius_m, stiffness) = (sphere.radius_m, sphere.stiffness);
+                meet(Dip {
+                    number: first + j,
+                    centre_m,
+                    radius_m,
+                    depth_m: radius_m - distance,
+                    normal,
+                    stiffness,
+                    friction: Some(obstacle.friction),
+                    is_edge: false,
+                    counts,
+                });
+            }
+        }
+    }
+
+    /// Least height of a sphere over the ground, m.
+    fn over_m(&self, state: &State, ground: &Ground) -> f64 {
         let (at, axes) = (state.position_m(), *state.attitude().to_rotation_matrix().matrix());
         if let Some((normal, point)) = ground.lone(at.y, self.reach_m) {
             let (height, down) = (normal.dot(&(at - point)), axes.tr_mul(&normal));
@@ -133,12 +198,14 @@ impl Hull {
         ground: &Ground,
         meet: &mut dyn FnMut(Dip),
     ) {
+        self.meets(pose, meet);
         for (number, sphere) in self.spheres.iter().enumerate() {
             let centre_m = pose.at_m + pose.axes * sphere.place_m;
             let (distance, normal) = ground.distance(&centre_m);
             let (radius_m, stiffness) = (sphere.radius_m, sphere.stiffness);
             let depth_m = radius_m - distance;
-            meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: false, counts: 1.0 });
+            let (friction, is_edge, counts) = (None, false, 1.0);
+            meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, friction, is_edge, counts });
         }
         // a face that only an edge meets, or wheels that lie nearly flat
         if !(ground.has_steep() || pose.axes[(2, 1)].abs() > LEANS) {
@@ -156,7 +223,8 @@ impl Hull {
                 let first = self.spheres.len() + FACES * (2 * wheel + side);
                 ground.beside(&centre_m, radius_m, &axle, |face, depth_m, normal, counts| {
                     let (number, stiffness) = (first + face % FACES, EDGE_N_PER_M);
-                    meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: true, counts });
+                    let (friction, is_edge) = (None, true);
+                    meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, friction, is_edge, counts });
                 });
             }
         }
@@ -185,7 +253,8 @@ impl Hull {
             let along = velocity - dip.normal * velocity.dot(&dip.normal);
             let zone = ground.zone((pose.at_m + arm_m).y).map_or(1.0, |zone| zone.friction);
             let speed = (along.norm_squared() + TURNS_M_S * TURNS_M_S).sqrt();
-            let force = dip.normal * load_n - along * (self.friction * zone * load_n / speed);
+            let friction = dip.friction.unwrap_or(self.friction * zone);
+            let force = dip.normal * load_n - along * (friction * load_n / speed);
             sum.force_n += force;
             sum.moment_n_m += arm_m.cross(&force);
             sum.power_w -= force.dot(&velocity);
@@ -207,7 +276,7 @@ impl Hull {
             core::mem::swap(most_m, before_m);
             most_m.fill(0.0);
             self.dips(&state.pose(), chassis, state, steer(), ground, &mut |dip| {
-                let is_roof = self.spheres.get(dip.number).is_some_and(|sphere| sphere.is_roof);
+                let is_roof = self.sphere_of(dip.number).is_some_and(|sphere| sphere.is_roof);
                 let before_m = before_m[dip.number];
                 let is_kept = is_roof || dip.is_felt(before_m);
                 most_m[dip.number] = if is_kept { before_m.max(dip.depth_m) } else { 0.0 };
@@ -217,9 +286,17 @@ impl Hull {
         memory.is_near = memory.clear_m < NEAR_M || ground.has_steep() || leans.z.abs() > LEANS;
     }
 
-    /// Deepest crush of the roof, m.
+    /// Deepest crush of the roof by ground and barriers, m.
     pub fn roof_m(&self, memory: &HullMemory) -> f64 {
-        let of = self.spheres.iter().zip(&memory.most_m).filter(|(sphere, _)| sphere.is_roof);
+        let roof = |number: usize| self.sphere_of(number).is_some_and(|sphere| sphere.is_roof);
+        let of = memory.most_m.iter().enumerate().filter(|(number, _)| roof(*number));
         of.map(|(_, most)| *most).fold(0.0, f64::max)
+    }
+
+    /// The sphere of a depth; none of an edge of a wheel.
+    fn sphere_of(&self, number: usize) -> Option<&Sphere> {
+        let n = self.spheres.len();
+        let in_barrier = || number.checked_sub(n + 8 * FACES).map(|i| i % n);
+        if number < n { self.spheres.get(number) } else { self.spheres.get(in_barrier()?) }
     }
 }

@@ -41,7 +41,7 @@ impl Vehicle {
 }
 
 /// Published: a planar model of impact without tyres, its restitution fitted to each test; so the impulse of the contact is compared. Measured Δv:
-/// +2.6 and +2.3, −1.4 and −1.2, +2.4 and +2.3, −3.8 and −3.6 %. With what tyres do meanwhile it is +0.3, +0.7, −3.7, −2.8, +0.4, +0.9, −6.2, −5.4 %.
+/// +2.6 and +2.3, +0.2 and +0.4, +2.4 and +2.3, −2.8 and −2.6 %. With what tyres do meanwhile it is +0.3, +0.7, −1.9, −0.9, +0.5, +1.0, −4.8, −4.0 %.
 #[test]
 fn four_oblique_offset_tests_come_out_blind() {
     struct Case {
@@ -136,7 +136,7 @@ fn four_oblique_offset_tests_come_out_blind() {
         let turns = |i: usize| outcome.contacts[0].struck[i].unwrap().yaw_rates_rad_s[1].to_degrees().abs();
         for i in 0..2 {
             let off = of(i) / case.expected[2 * i] - 1.0;
-            assert!(off.abs() < 0.04, "{} {i}: {off}", case.name);
+            assert!(off.abs() < 0.035, "{} {i}: {off}", case.name);
         }
         // after a nearly central hit the turn is ill-conditioned: friction 0.3 to 0.8 moves it by 100 °/s
         assert!((turns(0) - case.expected[1]).abs() < 60.0 && (turns(1) - case.expected[3]).abs() < 60.0);

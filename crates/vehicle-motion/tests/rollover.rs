@@ -3,10 +3,12 @@
 mod common;
 
 use common::proof_car;
+use vehicle_motion::barrier::{Barrier, Wall};
 use vehicle_motion::car::{Car, Class};
 use vehicle_motion::driver::Driver;
 use vehicle_motion::ground::{Curb, Ground};
 use vehicle_motion::run::{Drive, Ride, Start};
+use vehicle_motion::world::{Begin, Entry, Outcome, World};
 use vehicle_motion::{GRAVITY_M_S2 as G, V3};
 
 const SIDEWAYS: f64 = core::f64::consts::FRAC_PI_2;
@@ -87,4 +89,30 @@ fn a_roof_dropped_keeps_its_energy_books() {
     assert!(ride.balance().abs() < 2e-4, "{}", ride.balance());
     // it lies on its roof
     assert!((ride.last().position_m.z + 0.867).abs() < 0.01);
+}
+
+/// On its side, the roof ahead, into a wall: the roof is pressed in and throws it back a little; books close.
+#[test]
+fn a_roof_strikes_a_wall() {
+    let car = Car::of_class(Class::Sedan);
+    let drive = Drive::new(&car, Ground::level(), Driver::coasting()).unwrap();
+    let mut state = drive.state_at(&Start::default());
+    // rolled to the right by 90 degrees, 0.5 m over the ground, the roof towards +y at 8 m/s
+    let half = core::f64::consts::FRAC_PI_4;
+    state.0[2] = -1.5;
+    state.0[3..7].copy_from_slice(&[half.cos(), half.sin(), 0.0, 0.0]);
+    state.0[8] = 8.0;
+    let wall = Wall { point_m: [0.0, 1.6], normal_rad: -SIDEWAYS, friction: 0.3 };
+    let run = |barriers: Vec<Barrier>| {
+        let cars = vec![Entry::new(car.clone(), Driver::coasting(), Begin::State(state))];
+        World { cars, barriers, ..World::default() }.run(0.4).unwrap()
+    };
+    let (free, struck) = (run(Vec::new()), run(vec![Barrier::Wall(wall)]));
+    let farthest =
+        |outcome: &Outcome| outcome.rides[0].stations().iter().map(|station| station.position_m.y).fold(0.0, f64::max);
+    assert!(farthest(&free) > 2.5, "{}", farthest(&free));
+    // the roof stands 0.9 m over the centre of gravity
+    assert!((0.6..1.4).contains(&farthest(&struck)), "{}", farthest(&struck));
+    assert!(struck.damage[0].roof_m > 0.1 && struck.rides[0].last().velocity_m_s.y < 1.0, "{:?}", struck.damage[0]);
+    assert!(struck.balance.abs() < 1e-3, "{}", struck.balance);
 }

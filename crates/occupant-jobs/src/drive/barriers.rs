@@ -3,7 +3,7 @@
 use occupant_scenario::Drives;
 use serde::Serialize;
 use vehicle_motion::V3;
-use vehicle_motion::barrier::Barrier;
+use vehicle_motion::barrier::{Barrier, End};
 use vehicle_motion::presets::Evidence;
 use vehicle_motion::run::Station;
 use vehicle_motion::world::Partner;
@@ -61,8 +61,15 @@ fn met(drives: &Drives, car: usize, barrier: usize) -> Option<Met> {
         Some(occupant_units::trig::atan2(across, along))
     };
     let rail = drives.outcome.rails.iter().find(|rail| rail.barrier == barrier);
-    let slides = matches!(drives.world.barriers[barrier], Barrier::Slider(_));
-    let stroke_m = slides.then(|| drives.outcome.slides[barrier].most_m);
+    let stroke_m = match &drives.world.barriers[barrier] {
+        // what broke away moves on with the vehicle
+        Barrier::Slider(slider) if slider.end == End::Released => {
+            let breaks_m = slider.force_n.last().map_or(0.0, |point| point[0]);
+            Some(drives.outcome.slides[barrier].most_m.min(breaks_m))
+        }
+        Barrier::Slider(_) => Some(drives.outcome.slides[barrier].most_m),
+        _ => None,
+    };
     let (name, kind) = &drives.barriers[barrier];
     Some(Met {
         name: name.clone(),

@@ -132,7 +132,8 @@ pub fn plan(drives: &Drives, all: &[Driven], title: &str) -> String {
     let mut svg = Svg::new(width + 2.0 * SIDE, height + HEAD + FOOT, title);
     svg.rect(0.0, 0.0, width + 2.0 * SIDE, height + HEAD + FOOT, "fill=\"#ffffff\"");
     svg.text([SIDE, 26.0], title, &Text { size: 17.0, ..Text::default() });
-    let words = "From above: x to the right, y (to the right of the road) down. Dark bars at the fronts of the vehicles; outlines with the crush that stays.";
+    let words =
+        "From above: x to the right, y (right of the road) down. Bars at the fronts; outlines with residual crush.";
     svg.text([SIDE, 46.0], words, &Text { size: 12.0, fill: "#555555", ..Text::default() });
     svg.begin_clip("plan", SIDE, HEAD, width, height);
     ground(&mut svg, &sheet, drives);

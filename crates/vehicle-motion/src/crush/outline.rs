@@ -92,6 +92,12 @@ impl Outline {
         crossed.map_or_else(shallow, |(_, face)| face)
     }
 
+    /// Distance of a point outside in plan, m, negative inside, and the normal of the nearest edge.
+    pub fn nearest(&self, point: &V3) -> (f64, [f64; 2]) {
+        let over = self.edges.iter().map(|edge| (edge.over_m([point.x, point.y]), edge.normal));
+        over.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, [1.0, 0.0]))
+    }
+
     /// Distance of a point outside in plan, m; negative inside.
     pub fn gap_m(&self, point: &V3) -> f64 {
         self.edges.iter().map(|edge| edge.over_m([point.x, point.y])).fold(f64::NEG_INFINITY, f64::max)

@@ -5,7 +5,7 @@ use crate::barrier::Barrier;
 use crate::crush::law::{Law, Series};
 use crate::crush::outline::{Node, Outline, of_body};
 use crate::crush::touch::{NO_FACE, Pass, Pose, Shape};
-use crate::hull::{Hull, HullMemory};
+use crate::hull::{Hull, HullMemory, Obstacle};
 use crate::rail::{Beam, BeamMemory};
 use crate::slider::Slide;
 use crate::state::State;
@@ -96,11 +96,9 @@ impl<'a> Setup<'a> {
             shapes.push(Shape::new(outline, nodes));
             laws.push(of_faces);
         }
-        let hull = |v: &Vehicle| Hull::of(&v.body, v.chassis.height_m(), v.chassis.radius_m());
-        let hulls = vehicles.iter().map(hull).collect();
         let mut setup = Setup {
             rails: Vec::new(),
-            hulls,
+            hulls: Vec::new(),
             world,
             vehicles,
             laws,
@@ -114,7 +112,25 @@ impl<'a> Setup<'a> {
             setup.add_barrier(number, barrier)?;
         }
         setup.pair_cars();
+        let obstacles = setup.obstacles();
+        let hull = |v: &Vehicle| Hull::of(&v.body, v.chassis.height_m(), v.chassis.radius_m(), obstacles.clone());
+        setup.hulls = setup.vehicles.iter().map(hull).collect();
         Ok(setup)
+    }
+
+    /// Barriers that stand.
+    fn obstacles(&self) -> Vec<Obstacle> {
+        let first = self.vehicles.len();
+        let of = |(i, barrier): (usize, &Barrier)| {
+            let friction = match barrier {
+                Barrier::Wall(own) => own.friction,
+                Barrier::Pole(own) => own.friction,
+                Barrier::Block(own) => own.friction,
+                Barrier::Rail(_) | Barrier::Slider(_) => return None,
+            };
+            Some(Obstacle { outline: self.shapes[first + i].outline.clone(), at_m: self.solids[i].at_m, friction })
+        };
+        self.world.barriers.iter().enumerate().filter_map(of).collect()
     }
 
     fn is_by_impulse(&self, car: usize, partner: Partner) -> bool {

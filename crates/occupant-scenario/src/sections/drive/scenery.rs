@@ -21,6 +21,8 @@ const ROUND: usize = 24;
 /// Width of a tyre mark, and its height above the ground, m.
 const TREAD_M: f64 = 0.16;
 const OVER_M: f64 = 0.01;
+/// Length of its parts, m.
+const PART_M: f64 = 0.3;
 
 /// A part of a drive to draw.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +90,7 @@ fn road(drives: &Drives) -> Polygons {
 fn strips(drives: &Drives, vehicle: usize) -> Polygons {
     let mut strips = Vec::new();
     for mark in marks(&drives.outcome.rides[vehicle], &drives.world.ground) {
-        for pair in mark.points_m.windows(2) {
+        for pair in thinned(&mark.points_m).windows(2) {
             let way = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
             let length_m = way[0].hypot(way[1]);
             if length_m > 0.0 {
@@ -100,6 +102,18 @@ fn strips(drives: &Drives, vehicle: usize) -> Polygons {
         }
     }
     strips
+}
+
+/// Points of a line at least `PART_M` apart, with both ends: one strip for each step of a run would draw a ladder.
+fn thinned(points_m: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for (i, point) in points_m.iter().enumerate() {
+        let is_far = |last: &[f64; 2]| (point[0] - last[0]).hypot(point[1] - last[1]) >= PART_M;
+        if i + 1 == points_m.len() || kept.last().is_none_or(is_far) {
+            kept.push(*point);
+        }
+    }
+    kept
 }
 
 /// Body, cabin and wheels in the axes of the compartment.

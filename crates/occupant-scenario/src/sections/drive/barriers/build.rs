@@ -182,7 +182,7 @@ struct Yields {
     force_n: &'static [[f64; 2]],
 }
 
-/// All are estimates. Signs: a car of 900 kg that strikes at 100 km/h leaves at 93, 63 and 42 km/h; the categories of EN 12767 are 70 to
+/// All are estimates. Signs: a car of 900 kg that strikes at 100 km/h leaves at 85, 57 and 14 km/h; the categories of EN 12767 are 70 to
 /// 100, 50 to 70, and at most 50 km/h. Cushions stop 900 and 1300 kg at the speed of their name within 80 % of their stroke.
 fn yields(preset: Option<&str>) -> Option<Yields> {
     let (sizes, force_n): (_, &[[f64; 2]]) = match preset? {
