@@ -236,6 +236,27 @@ fn headings_of_known_programs_tell_their_units() {
     }
 }
 
+/// What may be the longitudinal motion is never left out without a word.
+#[test]
+fn a_path_without_forward_motion_names_what_was_left_out() {
+    let folder = files();
+    let here = folder.path();
+    let rows = "0,0,0\n50,-15,1\n100,-29,3\n";
+    let path = || fs::read_to_string(here.join("edr-path.csv")).unwrap();
+    for heading in ["Longitudinal Crash Pulse Delta-V (mph)", "SDM Recorded Vehicle Velocity Change (MPH)"] {
+        fs::write(here.join("edr.csv"), format!("Time (ms),{heading},Lateral Delta-V (mph)\n{rows}")).unwrap();
+        let said = spoken(here, &["import", "edr.csv", "-f", "--speed", "40 mph"]);
+        assert!(path().contains("dvx[") && path().contains("dvy["), "{heading}: {}", path());
+        assert!(!said.contains("no motion along x"), "{said}");
+    }
+    fs::write(here.join("edr.csv"), format!("Time (ms),Mystery (mph),Lateral Delta-V (mph)\n{rows}")).unwrap();
+    let said = spoken(here, &["import", "edr.csv", "-f", "--speed", "40 mph"]);
+    assert!(said.contains("the path has no motion along x") && said.contains("`Mystery`"), "{said}");
+    let refused = answer(here, &["import", "edr.csv", "-f", "--speed", "40"]);
+    let said = err(&refused);
+    assert!(said.contains("--speed: `40` has no unit") && said.contains("'50 km/h'"), "{said}");
+}
+
 #[test]
 fn the_vehicle_that_is_asked_for_is_imported() {
     let folder = files();

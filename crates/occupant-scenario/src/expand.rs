@@ -91,22 +91,32 @@ fn expand_occupant(sources: &mut Sources, written: &Node, sets: Option<&Node>, o
 fn from_library(sources: &mut Sources, root: &mut Table) {
     let Some(library) = presets::library() else { return };
     let mut told = Table::new();
+    let mut merge = |entry: &mut Entry, place: &str, from: &[&str]| {
+        let named = entry.node.get("library").and_then(Node::as_str).map(str::to_owned);
+        let Some(named) = named else { return };
+        let at = from.iter().map(|key| if *key == "*" { named.as_str() } else { key });
+        let at: Vec<&str> = at.collect();
+        let Some(base) = entry_at(&library.root, &at) else { return };
+        let id = sources.named(LIBRARY).unwrap_or_else(|| sources.add(LIBRARY, library.shared()));
+        let base = Entry { node: base.node.moved_to(id), ..base.clone() };
+        let mut whole = laid_over(Some(base), entry.clone());
+        whole.node.as_table_mut().and_then(|table| table.shift_remove("library"));
+        *entry = whole;
+        if let Some(source) = entry_at(&library.root, &["provenance", &at.join(".")]) {
+            told.insert(place.to_owned(), Entry { node: source.node.moved_to(id), ..source.clone() });
+        }
+    };
     for key in presets::IN_LIBRARY {
         for (name, entry) in root.get_mut(key).and_then(|entry| entry.node.as_table_mut()).into_iter().flatten() {
-            let named = entry.node.get("library").and_then(Node::as_str).map(str::to_owned);
-            let of = |of: &str, named: &str| library.root.get(of)?.as_table()?.get(named);
-            let Some((named, base)) = named.and_then(|named| Some((of(key, &named)?, named))).map(|(b, n)| (n, b))
-            else {
-                continue;
-            };
-            let id = sources.named(LIBRARY).unwrap_or_else(|| sources.add(LIBRARY, library.shared()));
-            let base = Entry { node: base.node.moved_to(id), ..base.clone() };
-            let mut whole = laid_over(Some(base), entry.clone());
-            whole.node.as_table_mut().and_then(|table| table.shift_remove("library"));
-            *entry = whole;
-            if let Some(source) = of("provenance", &format!("{key}.{named}")) {
-                told.insert(format!("{key}.{name}"), Entry { node: source.node.moved_to(id), ..source.clone() });
-            }
+            merge(entry, &format!("{key}.{name}"), &[key, "*"]);
+        }
+    }
+    if let Some(path) = root.get_mut("path") {
+        merge(path, "path", &PULSES);
+    }
+    for (name, own) in root.get_mut("vehicles").and_then(|entry| entry.node.as_table_mut()).into_iter().flatten() {
+        if let Some(path) = own.node.as_table_mut().and_then(|own| own.get_mut("path")) {
+            merge(path, &format!("vehicles.{name}.path"), &PULSES);
         }
     }
     if told.is_empty() {
@@ -120,8 +130,17 @@ fn from_library(sources: &mut Sources, root: &mut Table) {
     }
 }
 
+/// The entry at a path of keys.
+fn entry_at<'a>(node: &'a Node, path: &[&str]) -> Option<&'a Entry> {
+    let (first, rest) = path.split_first()?;
+    let entry = node.as_table()?.get(*first)?;
+    if rest.is_empty() { Some(entry) } else { entry_at(&entry.node, rest) }
+}
+
 /// Name of the library in messages.
 const LIBRARY: &str = "library";
+/// Where pulses stand in the library.
+const PULSES: [&str; 3] = ["vehicles", "*", "path"];
 
 /// Name of a joint, and whether it is a hinge.
 type JointWord = (String, bool);

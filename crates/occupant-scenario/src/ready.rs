@@ -7,7 +7,6 @@ use super::car;
 use super::check::check_parts;
 use super::expand::written_out;
 use super::living;
-use super::presets::IN_LIBRARY;
 use super::sections::{Scenario, schema};
 use placed_text::{Diagnostics, Document, Node, SourceId, Sources, Table};
 
@@ -63,8 +62,9 @@ impl Ready {
         let changed: Vec<&str> = new.keys().map(String::as_str).filter(|key| !is_same(key)).collect();
         let is_living = living::any(&self.root);
         let is_laid = |key: &&str| is_living && ["muscles", "triggers"].contains(key);
-        let is_plain =
-            |key: &&str| !(OTHERS.contains(key) || IN_LIBRARY.contains(key) && refers(old, new, key) || is_laid(key));
+        let refer =
+            |key: &str| [old, new].into_iter().filter_map(|root| root.get(key)).any(|entry| refers(&entry.node));
+        let is_plain = |key: &&str| !(OTHERS.contains(key) || refer(key) || is_laid(key));
         if !changed.iter().all(is_plain) {
             return None;
         }
@@ -104,10 +104,10 @@ pub(super) fn shares(a: &Node, b: &Node) -> bool {
     }
 }
 
-/// Whether an entry of a section refers to the library.
-fn refers(old: &Table, new: &Table, key: &str) -> bool {
-    let entries = [old, new].into_iter().filter_map(|root| root.get(key)?.node.as_table()).flatten();
-    entries.into_iter().any(|(_, entry)| entry.node.get("library").is_some())
+/// Whether a section or a table in it refers to the library.
+fn refers(section: &Node) -> bool {
+    let mut table = section.as_table().into_iter().flatten();
+    table.any(|(key, entry)| key == "library" || refers(&entry.node))
 }
 
 /// Explicit values of keys that the scenario leaves out.

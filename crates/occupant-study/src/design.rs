@@ -157,6 +157,11 @@ impl Design {
         len.filter(|n| *n <= 1 << 52)
     }
 
+    /// Whether its samples are drawn from the parameters' laws, one coordinate for each.
+    pub(super) fn is_sampled(&self) -> bool {
+        matches!(self, Design::LatinHypercube { .. } | Design::Sobol { .. } | Design::MonteCarlo { .. })
+    }
+
     /// What a sample is in its design.
     pub(super) fn role(&self, index: u64, levels: &[Option<u64>], seed: u64) -> Role {
         let k = levels.len();
@@ -213,6 +218,14 @@ impl Design {
             }
         }
     }
+}
+
+/// Sets the coordinates of crossed parameters to combination number `index` of their values.
+pub(super) fn cross(index: u64, levels: &[Option<u64>], crossed: &[bool], coordinates: &mut [Coordinate]) {
+    let own = levels.iter().zip(crossed).map(|(levels, crossed)| levels.filter(|_| *crossed).or(Some(1)));
+    let levels = full_factorial(index, &own.collect::<Vec<_>>());
+    let places = coordinates.iter_mut().zip(levels).zip(crossed);
+    places.filter(|(_, crossed)| **crossed).for_each(|((coordinate, level), _)| *coordinate = level);
 }
 
 /// The digits of the index in a number system whose digits have as many values as the parameters, last digit first.

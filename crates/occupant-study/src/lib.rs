@@ -177,7 +177,12 @@ impl Study {
     /// How many samples the design has.
     pub fn samples(&self) -> u64 {
         // bind has refused a design that cannot be counted
-        self.design.len(&self.levels()).unwrap_or(0)
+        self.design.len(&self.levels()).unwrap_or(0).saturating_mul(self.crossing())
+    }
+
+    /// How many combinations of the values of crossed parameters each point of the design is run with.
+    pub fn crossing(&self) -> u64 {
+        crossing(&self.parameters).unwrap_or(u64::MAX)
     }
 
     /// How many runs each sample has: members of the ensemble, or 1.
@@ -193,9 +198,14 @@ impl Study {
     /// The values of all parameters in a run, in the order of [`Study::parameters`]. Members of one sample share them.
     pub fn sample(&self, index: u64) -> Vec<Setting> {
         let (sample, _) = self.sample_and_member(index);
-        let mut coordinates = self.design.coordinates(sample, self);
+        let crossing = self.crossing();
+        let mut coordinates = self.design.coordinates(sample / crossing, self);
         if let Some(copula) = &self.copula {
             correlate(copula, &mut coordinates);
+        }
+        if crossing > 1 {
+            let crossed: Vec<bool> = self.parameters.iter().map(|parameter| parameter.crossed).collect();
+            design::cross(sample % crossing, &self.levels(), &crossed, &mut coordinates);
         }
         let settings = self.parameters.iter().zip(coordinates).enumerate();
         settings
@@ -241,12 +251,18 @@ impl Study {
     /// What a run's sample is in its design.
     pub fn role(&self, index: u64) -> Role {
         let (sample, _) = self.sample_and_member(index);
-        self.design.role(sample, &self.levels(), self.seed)
+        self.design.role(sample / self.crossing(), &self.levels(), self.seed)
     }
 
     fn levels(&self) -> Vec<Option<u64>> {
         self.parameters.iter().map(|p| p.law.levels()).collect()
     }
+}
+
+/// Number of combinations of the values of all crossed parameters; none if it cannot be counted.
+fn crossing(parameters: &[Parameter]) -> Option<u64> {
+    let crossed = parameters.iter().filter(|parameter| parameter.crossed);
+    crossed.map(|parameter| parameter.law.levels().unwrap_or(1)).try_fold(1_u64, u64::checked_mul)
 }
 
 fn value_at(parameter: &Parameter, coordinate: Coordinate) -> Value {

@@ -16,6 +16,8 @@ pub struct Parameter {
     pub apply: ApplyChoice,
     /// How its values are spread.
     pub law: Law,
+    /// Whether each of its values is run with every sample of the other parameters.
+    pub crossed: bool,
     /// Where it acts.
     pub targets: Vec<Target>,
 }

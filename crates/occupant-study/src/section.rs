@@ -91,6 +91,9 @@ pub struct ParameterSection {
     /// These values: numbers, or texts such as names of materials or of files.
     #[schemars(extend("minItems" = 1))]
     pub list: Option<Vec<Value>>,
+    /// True: every value of its list or grid is run with every sample of the other parameters, such as each pulse with each
+    /// seat. The number of runs is that of the design times the number of these values.
+    pub crossed: Option<bool>,
     /// Any value between two.
     pub range: Option<RangeSection>,
     /// Values as likely as a distribution says.

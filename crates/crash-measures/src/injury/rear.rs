@@ -14,9 +14,9 @@ use occupant_units::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared, N
 
 /// Measures of whiplash.
 pub(super) const WHIPLASH: &[Definition] = &[
-    measure("nic", "NIC, m²/s²", One, Cfc60, |r| Ok(at(r.nic()?.greatest))).limited(Quantity::Nic),
+    measure("nic", "NIC, m²/s²", One, Cfc60, |r| Ok(at(r.nic()?.greatest))).brief().limited(Quantity::Nic),
     measure("nic_at_contact", "NIC at head contact, m²/s²", One, Cfc60, Readings::nic_at_contact),
-    measure("nkm", "Nkm", One, Cfc600, Readings::nkm).limited(Quantity::Nkm),
+    measure("nkm", "Nkm", One, Cfc600, Readings::nkm).brief().limited(Quantity::Nkm),
     measure("neck_shear_ahead", "neck shear, head pushed forward", Newton, Cfc1000, |r| {
         r.is_rear()?;
         Ok(at(peak_towards(1.0, &own(&r.neck_n)?[0], r.interval_s)?))
@@ -27,8 +27,10 @@ pub(super) const WHIPLASH: &[Definition] = &[
         let end_s = r.contact()?.map_or(f64::INFINITY, |contact| contact.end_s);
         Ok(at(greatest_until(&t1, r.interval_s, end_s)?))
     })
+    .brief()
     .limited(Quantity::T1Acceleration),
     measure("head_contact_time", "head contact with restraint", Second, Cfc600, Readings::contact_time)
+        .brief()
         .limited(Quantity::HeadContactTime),
     measure("rebound_speed", "head rebound", MetrePerSecond, Cfc60, |r| {
         let speed = r.special(Special::HeadSpeed)?;

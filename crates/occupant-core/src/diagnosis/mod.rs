@@ -141,6 +141,8 @@ pub struct VehicleFigures {
     pub end_speed_m_s: f64,
     /// Magnitude of the change of velocity between them.
     pub velocity_change_m_s: f64,
+    /// Peak deceleration, m/s², and duration, s, of its pulse, if the path is one.
+    pub pulse: Option<[f64; 2]>,
 }
 
 impl Diagnosis {
@@ -242,6 +244,13 @@ fn vehicle(model: &Model) -> VehicleFigures {
         start_speed_m_s: first.norm(),
         end_speed_m_s: last.norm(),
         velocity_change_m_s: (last - first).norm(),
+        pulse: match &setup.path {
+            VehiclePath::Pulse(path) => {
+                let (from_s, to_s) = path.pulse_span_s();
+                Some([path.peak_deceleration_m_s2(), to_s - from_s])
+            }
+            _ => None,
+        },
     }
 }
 

@@ -63,12 +63,17 @@ pub const BANDS: [&Curves; 6] = [
     &[("sphere.head.position.x", ""), ("sphere.head.position.y", ""), ("sphere.head.position.z", "")],
 ];
 
-/// Patterns of the figures that studies report on, most telling first.
-pub const FIGURES: [&str; 11] = [
+/// Patterns of the figures that studies report on, most telling first; the first four exist in rear impacts alone.
+pub const FIGURES: [&str; 16] = [
+    "nic",
+    "nkm",
+    "t1_acceleration",
+    "head_contact_time",
     "hic15",
     "head.peak",
     "head.three_ms_cumulative",
     "chest.peak",
+    "chest_deflection",
     "chest.three_ms_cumulative",
     "pelvis.peak",
     "belts.*.peak",

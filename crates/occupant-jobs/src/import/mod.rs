@@ -58,6 +58,14 @@ pub fn import(imported: &Imported, request: &Request) -> Result<Made, Failure> {
     let used = path.as_ref().map_or(&[][..], |path| &path.signals);
     let others: Vec<_> = recording.signals.iter().filter(|signal| !used.contains(&signal.name)).collect();
     let curves = if others.is_empty() { None } else { Some((curves::table(&others)?, others.len())) };
+    if let Some(path) = path.as_ref().filter(|path| !path.is_forward) {
+        let names: Vec<String> = others.iter().take(12).map(|signal| format!("`{}`", signal.name)).collect();
+        let rest = if names.is_empty() { String::new() } else { format!("; the record also has {}", names.join(", ")) };
+        notes.push(format!(
+            "the path has no motion along x: it is made of {}{rest}. If a column is the longitudinal motion, name it with --columns, such as 't[ms],dvx[km/h]'",
+            path.signals.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+        ));
+    }
     if path.is_none() && request.place.is_none() {
         let names: Vec<String> = recording.signals.iter().take(12).map(|s| format!("`{}`", s.name)).collect();
         notes.push(format!(
@@ -70,6 +78,9 @@ pub fn import(imported: &Imported, request: &Request) -> Result<Made, Failure> {
 
 /// A speed in words, m/s.
 fn speed(text: &str) -> Result<f64, String> {
+    if let Ok(bare) = text.trim().parse::<f64>() {
+        return Err(format!("`{bare}` has no unit"));
+    }
     KINDS[SPEED].read(text).map_err(|error| error.found)
 }
 

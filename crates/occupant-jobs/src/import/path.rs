@@ -23,6 +23,8 @@ pub struct PathTable {
     pub run_s: [f64; 2],
     /// Names of the signals that it is made of.
     pub(super) signals: Vec<String>,
+    /// Whether it has motion along x.
+    pub(super) is_forward: bool,
 }
 
 /// Length of the beginning of a record that says whether gravity is in it, s.
@@ -71,6 +73,7 @@ pub(super) fn of(
         keys: [&keys[..1], &axes, &keys[1..]].concat(),
         // what stands before the clock of the record is before first contact
         run_s: [if first_s < 0.0 && last_s > 0.0 { 0.0 } else { first_s }, last_s],
+        is_forward: ["x", "ax", "dvx"].iter().any(|name| motion.has(name)),
         signals: motion.signals,
     }))
 }
@@ -138,6 +141,10 @@ fn keys_of_sensors(
         notes.push(format!("`speed` is {name} at {} s, {speed}; change it with --speed", placed_text::number(t_s)));
         Some(speed)
     };
+    if let Some(Err(found)) = request.speed.map(super::speed) {
+        let help = "give a speed with its unit, such as --speed '50 km/h'";
+        return Err(Failure::with_help(format!("--speed: {found}"), help));
+    }
     let told = request.speed.map(str::to_owned).or(known).or_else(recorded);
     let speed_m_s = told.as_deref().and_then(|speed| super::speed(speed).ok());
     let speed = told.unwrap_or_else(|| {

@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::results::summary::Caveat;
 use occupant_core::vehicle::VehiclePath;
 use serde::Serialize;
 
@@ -125,12 +126,14 @@ impl Run {
         let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
         let mut notes = results.notes();
         notes.extend(model.warnings().iter().map(|w| w.to_string()));
+        let (told, caveats): (Vec<&Caveat>, Vec<&Caveat>) = summary.caveats.iter().partition(|caveat| caveat.is_note());
+        notes.extend(told.iter().map(|note| note.text.clone()));
         Ok(Run {
             label: Run::label_of(results),
             title: model.setup().title.clone(),
             facts: provenance::facts(results, &summary, units),
             notes,
-            caveats: summary.caveats.iter().map(|caveat| caveat.text.clone()).collect(),
+            caveats: caveats.iter().map(|caveat| caveat.text.clone()).collect(),
             times,
             segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
             parts: parts(model.body()).iter().map(PartData::of).collect(),

@@ -41,7 +41,13 @@ impl Measure {
 
     /// With the caveats on it.
     fn judged(self, caveats: &[Caveat]) -> Self {
-        let touching = || caveats.iter().enumerate().filter(|(_, caveat)| caveat.touches(&self.figure));
+        let touching = || {
+            caveats
+                .iter()
+                .filter(|caveat| !caveat.is_note())
+                .enumerate()
+                .filter(|(_, caveat)| caveat.touches(&self.figure))
+        };
         // a part of a run fails, but does not pass
         let is_part = touching().any(|(_, caveat)| caveat.name == Caveat::PART);
         let verdict = self.verdict.filter(|verdict| !is_part || *verdict == "failed");

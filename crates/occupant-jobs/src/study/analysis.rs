@@ -148,22 +148,37 @@ impl Linear {
             let why = without.to_owned();
             return Linear { without: Some(why.clone()), ranks: Vec::new(), regression: Err(why) };
         }
-        let rows = independent(samples);
+        let means = (study.crossing() > 1).then(|| means_of_points(samples, values, study.crossing()));
+        let (inputs, values, rows) = match &means {
+            Some((inputs, values)) => (inputs, values.as_slice(), (0..values.len()).collect()),
+            None => (&samples.inputs, values, independent(samples)),
+        };
         let taken = |column: &[f64]| -> Vec<f64> { rows.iter().map(|r| column[*r]).collect() };
         let y = taken(values);
-        let rank = |input: &Input| {
-            if input.is_number() {
-                rank_correlation(&taken(&input.values), &y).map_err(|e| said(&e))
-            } else {
-                Err("words have no order".to_owned())
-            }
+        let rank = |input: &Input| match input {
+            input if input.crossed => Err("crossed with every sample".to_owned()),
+            input if input.is_number() => rank_correlation(&taken(&input.values), &y).map_err(|e| said(&e)),
+            _ => Err("words have no order".to_owned()),
         };
         Linear {
             without: None,
-            ranks: samples.inputs.iter().map(rank).collect(),
-            regression: fit(&samples.inputs, &rows, values, study.seed),
+            ranks: inputs.iter().map(rank).collect(),
+            regression: fit(inputs, &rows, values, study.seed),
         }
     }
+}
+
+/// A row for each point of a design with crossed parameters: the point's inputs, and the mean response over all
+/// combinations of crossed values. Rows of one point are not independent; these means are. Points that are not complete
+/// are left out.
+fn means_of_points(samples: &Samples, values: &[f64], crossing: u64) -> (Vec<Input>, Vec<f64>) {
+    let rows: Vec<usize> = (0..samples.len()).collect();
+    let points = rows.chunk_by(|a, b| samples.numbers[*a] / crossing == samples.numbers[*b] / crossing);
+    let whole: Vec<&[usize]> = points.filter(|rows| rows.len() as u64 == crossing).collect();
+    let mean = |rows: &&[usize]| rows.iter().map(|row| values[*row]).sum::<f64>() / crossing as f64;
+    let of_points =
+        |input: &Input| Input { values: whole.iter().map(|rows| input.values[rows[0]]).collect(), ..input.clone() };
+    (samples.inputs.iter().map(of_points).collect(), whole.iter().map(mean).collect())
 }
 
 /// The regression on all parameters that are numbers and vary.

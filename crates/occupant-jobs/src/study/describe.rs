@@ -10,6 +10,16 @@ const NAMED: usize = 6;
 
 /// A design in words.
 pub fn design(study: &Study) -> String {
+    let crossed: Vec<&str> = study.parameters.iter().filter(|p| p.crossed).map(|p| p.name.as_str()).collect();
+    let design = alone(study);
+    match crossed.is_empty() {
+        true => design,
+        false => format!("{design}, each with all {} values of {}", study.crossing(), crossed.join(" × ")),
+    }
+}
+
+/// The design without crossed parameters.
+fn alone(study: &Study) -> String {
     match &study.design {
         Design::Single => "the scenario itself".to_owned(),
         Design::FullFactorial => "full factorial: all combinations of values".to_owned(),

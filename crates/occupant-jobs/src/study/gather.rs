@@ -7,7 +7,7 @@ use occupant_study::spread::{Rule, Verdict, median};
 use occupant_study::{Law, Study, Value};
 
 use super::Samples;
-use crate::base::{Failure, Units};
+use crate::base::{Failure, Show, Units};
 use crate::ensemble::Judged;
 use crate::files::study_folder::{Role, Row};
 use crate::sweep::{Census, Extremes, Stored};
@@ -47,7 +47,7 @@ pub struct Spoiled {
 ///
 /// # Errors
 /// A journal that cannot be read.
-pub fn gather(opened: &Stored, figures: &[usize], units: Units) -> Result<Gathered, Failure> {
+pub fn gather(opened: &Stored, figures: &[usize], units: Units, show: Show) -> Result<Gathered, Failure> {
     let study = &opened.plan.study;
     let columns = &opened.manifest.columns;
     let named: Vec<(String, String)> =
@@ -64,10 +64,15 @@ pub fn gather(opened: &Stored, figures: &[usize], units: Units) -> Result<Gather
         members: vec![Vec::new(); figures.len()],
     };
     gathering.name_words(|at| columns.get(at).is_some_and(|c| c.role == Role::InputText));
+    let bar = show.bar(gathering.gathered.ends.planned, "runs read");
     opened.journal.each_row(|row| {
         gathering.see(&row);
+        if let Some(bar) = &bar {
+            bar.set_position(row.index);
+        }
         Ok(())
     })?;
+    bar.iter().for_each(|bar| bar.clear());
     gathering.close();
     Ok(gathering.gathered)
 }

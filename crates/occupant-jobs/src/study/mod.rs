@@ -10,6 +10,7 @@ pub mod caution;
 mod command;
 mod describe;
 mod gather;
+mod groups;
 mod matrix;
 mod matters;
 mod numbers;
@@ -27,7 +28,7 @@ pub use matrix::text as matrix_text;
 pub use page::{page, subject};
 pub use tables::{Tables, write as write_tables};
 
-use crate::base::{Failure, Units};
+use crate::base::{Failure, Show, Units};
 use crate::sweep::Stored;
 use analysis::{Analysis, ByDesign, Linear};
 use gather::Gathered;
@@ -79,18 +80,22 @@ impl Report {
     ///
     /// # Errors
     /// A name that is none; a journal that cannot be read.
-    pub fn of(opened: Stored, names: &[String], units: Units) -> Result<Report, Failure> {
+    pub fn of(opened: Stored, names: &[String], units: Units, show: Show) -> Result<Report, Failure> {
         let candidates = responses::candidates(&opened.manifest, names)?;
-        let mut gathered = gather::gather(&opened, &candidates, units)?;
+        let mut gathered = gather::gather(&opened, &candidates, units, show)?;
         if names.is_empty() {
             responses::keep_telling(&mut gathered);
         }
+        let responses = gathered.samples.responses.len();
+        let bar = show.bar(responses as u64, "results analysed");
         let analyse = |i: usize| {
             let analysis = Analysis::of(&gathered.samples, i, &opened.plan.study);
             let numbers = numbers(&opened, &gathered, &analysis);
+            bar.iter().for_each(|bar| bar.set_position(i as u64 + 1));
             (analysis, numbers)
         };
-        let analyses = (0..gathered.samples.responses.len()).map(analyse).collect();
+        let analyses = (0..responses).map(analyse).collect();
+        bar.iter().for_each(|bar| bar.clear());
         Ok(Report { analyses, notes: caution::of_the_study(&opened, &gathered), gathered, opened })
     }
 

@@ -30,6 +30,8 @@ pub struct Input {
     pub words: Option<Vec<String>>,
     /// Whether equal ratios of its values are as likely, so that it is drawn over powers of ten.
     pub by_ratios: bool,
+    /// Whether each of its values was run with every sample of the other parameters.
+    pub crossed: bool,
 }
 
 /// A figure's column.
@@ -57,6 +59,7 @@ impl Samples {
             name: parameter.name.clone(),
             unit: units.told_of(parameter, &study.base),
             by_ratios: parameter.law.goes_by_ratios(),
+            crossed: parameter.crossed,
             ..Input::default()
         };
         let response = |(name, unit): &(String, String)| Response {

@@ -1,7 +1,7 @@
 //! The sections of the page.
 
 use super::shown::{shown, shown_unit, with_unit};
-use super::{Finding, Report, describe, matters, pictures};
+use super::{Finding, Report, describe, groups, matters, pictures};
 use occupant_pictures::html::{Cell, Html};
 
 /// What the study is.
@@ -100,6 +100,7 @@ pub fn response(html: &mut Html, of: &Finding<'_>) {
     html.raw(&format!("<section id=\"r{}\">\n", of.analysis.response));
     spread(html, of);
     if of.analysis.spread.is_some() && !of.analysis.constant {
+        groups::table(html, of);
         matters::by_design(html, of);
         matters::linear(html, of);
         html.fold("Pictures over the parameters");

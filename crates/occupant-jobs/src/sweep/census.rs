@@ -65,7 +65,7 @@ impl Census {
             return false;
         }
         let mut counts = true;
-        for caveat in row.caveats() {
+        for caveat in row.caveats().filter(|caveat| !caveat.is_note()) {
             counts &= caveat.name != Caveat::BALANCE_LOST;
             let (count, first) = self.caveats.entry(caveat.name).or_insert((0, row.index));
             (*count, *first) = (*count + 1, row.index.min(*first));

@@ -31,6 +31,8 @@ pub(super) const SOLE_M: f64 = 0.03;
 
 /// Heels of passengers ahead of their H-point and below the front one.
 const PASSENGER_HEELS_M: f64 = 0.70;
+/// Heels of a driver whose seat is farther from the pedals than any leg reaches stand this far ahead of the H-point.
+const FARTHEST_HEELS_M: f64 = 0.9;
 /// How far heels of people behind stay behind the H-points of the row ahead of them.
 const REAR_FEET_M: f64 = 0.41;
 
@@ -50,7 +52,7 @@ impl Car<'_> {
         let lean = seat.recline_deg;
         let is_driver = seat.name == "driver" && self.section.class != Some(CarClass::Sled);
         let heels = if is_driver {
-            [self.measures.heels, self.measures.seat_height]
+            [self.measures.heels.min(seat.h[0] + FARTHEST_HEELS_M), self.measures.seat_height]
         } else {
             // rows behind the front have the seats ahead before their shins
             let room = if seat.row == 0 { self.measures.heels } else { self.measures.couple - REAR_FEET_M };

@@ -110,8 +110,8 @@ impl Seat {
         let foam = all(&[[-0.11, 0.12], [0.35, 0.08], [0.35, 0.28], [-0.11, 0.32]]);
         let b = -BACK_BEHIND_M;
         let cover = along(&[[-0.14, b], [0.56, b], [0.56, b - 0.17], [-0.14, b - 0.17]]);
-        let mut text = prism(&format!("{id}_foam"), &self.foam(), &foam, across, &rounded(&still, "foam", 0.02));
-        text += &prism(&format!("{id}_back"), &self.foam(), &cover, across, &rounded(&back, "back", 0.02));
+        let mut text = prism(&format!("{id}_foam"), &self.soft("foam"), &foam, across, &rounded(&still, "foam", 0.02));
+        text += &prism(&format!("{id}_back"), &self.soft("back"), &cover, across, &rounded(&back, "back", 0.02));
         if self.is_taken() {
             let pan = all(&[[-0.09, 0.17], [0.33, 0.133], [0.33, 0.27], [-0.09, 0.31]]);
             let ramp = all(&[[0.13, 0.16], [0.28, 0.12], [0.33, 0.12], [0.33, 0.26], [0.13, 0.28]]);
@@ -156,7 +156,7 @@ impl Seat {
         let (parent, y) = (self.vehicle.as_deref().unwrap_or("vehicle"), self.h[1]);
         format!(
             "[frames.{}_recliner]\nkind = \"hinge\"\nparent = \"{parent}\"\norigin = {}\naxis = [0, 1, 0]\nmass = \"14 kg\"\ncentre = {}\n\
-             inertia = \"1 kg m^2\"\nangle = [\"0 deg\", \"2 deg\", \"40 deg\", \"45 deg\"]\n\
+             inertia = \"1 kg m^2\"\nangle = [\"0 deg\", \"6 deg\", \"40 deg\", \"45 deg\"]\n\
              moment = [\"0 N m\", \"{moment} N m\", \"{} N m\", \"{} N m\"]\n\n",
             self.id,
             list(&[x, y, z]),
@@ -166,9 +166,9 @@ impl Seat {
         )
     }
 
-    /// The foam's material: that of all, or a stiffer or softer one of its own.
-    fn foam(&self) -> String {
-        if self.own.foam.is_some() { format!("{}_foam", self.id) } else { "foam".to_owned() }
+    /// The material of cushion ("foam") or back: that of all, or a stiffer or softer one of its own.
+    fn soft(&self, part: &str) -> String {
+        if self.own.foam.is_some() { format!("{}_{part}", self.id) } else { part.to_owned() }
     }
 
     fn head_restraint(&self, frame: &str) -> String {
@@ -176,7 +176,7 @@ impl Seat {
         let top = si_or(&self.own.head_height, 0.80);
         let [x, z] = self.along([top - 0.10, front - 0.05]);
         format!(
-            "[solids.{}_head_restraint]\n{frame}kind = \"box\"\nmaterial = \"padding\"\ncentre = {}\nlengths = [\"0.10 m\", \"0.26 m\", \"0.20 m\"]\n\
+            "[solids.{}_head_restraint]\n{frame}kind = \"box\"\nmaterial = \"restraint\"\ncentre = {}\nlengths = [\"0.10 m\", \"0.26 m\", \"0.20 m\"]\n\
              pitch = \"{} deg\"\nrounding = \"0.03 m\"\n\n",
             self.id,
             list(&[x, self.h[1], z]),
@@ -192,10 +192,16 @@ impl Seat {
             format!("[seats.{name}]\ncushion = \"{name}_{cushion}\"\nback = \"{name}_back\"\ny = {}\n\n", m(self.h[1]));
         if let Some(factor) = self.own.foam.as_ref().map(|factor| factor.si()) {
             text += &format!(
-                "[materials.{name}_foam]\nk1 = \"{} kN/m\"\ndelta_b = \"45 mm\"\nk2 = \"{} kN/m\"\nmu1 = 0.3\nfriction = 0.8\n\
-                 friction_speed = \"0.3 m/s\"\n\n",
+                "[materials.{name}_foam]\nk1 = \"{} kN/m\"\ndelta_b = \"45 mm\"\nk2 = \"{} kN/m\"\nmu1 = 0.3\n\
+                 friction = 0.8\nfriction_speed = \"0.3 m/s\"\n\n\
+                 [materials.{name}_back]\ndepth = [\"0 mm\", \"20 mm\", \"110 mm\", \"160 mm\"]\n\
+                 force = [\"0 N\", \"{} N\", \"{} N\", \"{} N\"]\nreturned = 0.3\n\
+                 friction = 0.8\nfriction_speed = \"0.3 m/s\"\n\n",
                 12.0 * factor,
                 100.0 * factor,
+                240.0 * factor,
+                800.0 * factor,
+                3800.0 * factor,
             );
         }
         text

@@ -20,10 +20,13 @@ use placed_text::{Problem, SourceId};
     "dependentRequired" = {"rows": ["columns"]},
 ))]
 pub(crate) struct PulseSection {
-    /// Pulse shape: deceleration over time.
-    pub(crate) shape: PulseShape,
-    /// Speed before the pulse.
-    pub(crate) speed: Speed<NOT_NEGATIVE>,
+    /// Name of a pulse of the library, such as one of a test of seats from behind. Other keys override its values.
+    #[schemars(extend("enum" = ["iiwpg_16", "fmvss_202a", "sra_16", "sra_24"]))]
+    pub(crate) library: Option<String>,
+    /// Pulse shape: deceleration over time. Needed, unless `library` has it.
+    pub(crate) shape: Option<PulseShape>,
+    /// Speed before the pulse. Needed, unless `library` has it.
+    pub(crate) speed: Option<Speed<NOT_NEGATIVE>>,
     /// Peak deceleration. Give this or `delta_v`.
     pub(crate) peak: Option<Acceleration>,
     /// Change of speed over the pulse. Give this or `peak`.
@@ -90,7 +93,12 @@ pub(super) fn path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) ->
         let each = t.rows.iter();
         each.map(|row| DecelerationPoint { time_s: row[0], deceleration_m_s2: row[1] }).collect()
     });
-    let plain = PulseDefinition::new(s.speed.si(), shape(b, s, points)?);
+    let Some(kind) = s.shape else {
+        b.error("path", "a pulse without `shape`", "`shape`, or `library` with a pulse that has it");
+        return None;
+    };
+    let speed_m_s = b.needed("path", "speed", &s.speed);
+    let plain = PulseDefinition::new(speed_m_s, shape(b, s, kind, points)?);
     let definition = PulseDefinition {
         initial: pose(&s.position, [&s.roll, &s.pitch, &s.yaw]),
         direction: direction(&s.direction),
@@ -98,7 +106,37 @@ pub(super) fn path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) ->
         rebound_m_s: s.rebound.as_ref().map(Speed::si),
         ..plain
     };
-    PulsePath::new(definition).map_err(|p| refuse(b, &p, table.as_ref())).ok()
+    let path = PulsePath::new(definition).map_err(|p| refuse(b, &p, table.as_ref())).ok()?;
+    doubt(b, &path);
+    Some(path)
+}
+
+/// A pulse that removes this many times the speed is one that somebody mistyped, or whose vehicle rebounds.
+const TOO_MUCH: f64 = 1.02;
+
+/// Warns of a pulse that goes on when the vehicle has stopped, and of a table that speeds the vehicle up.
+fn doubt(b: &mut Builder, path: &PulsePath) {
+    let km_h = |m_s: f64| format!("{:.1} km/h", 3.6 * m_s);
+    let lost = path.pulse_delta_v_m_s();
+    let has = path.definition().initial_speed_m_s;
+    let at_rest = path.stop().filter(|_| has > 0.0 && lost > TOO_MUCH * path.delta_v_m_s());
+    let is_table = matches!(path.definition().shape, Shape::Tabulated { .. });
+    if lost < 0.0 && is_table {
+        let found = format!("the pulse speeds the vehicle up by {}", km_h(-lost));
+        let hint = "a deceleration is positive: reverse the signs of `a`".to_owned();
+        b.report(Problem::warning("path", found, "a pulse that slows the vehicle").with_hint(Some(hint)));
+    } else if let Some(stop) = at_rest {
+        let found = format!(
+            "the pulse removes {}, but the vehicle has {}: it stops at {:.1} ms, and the rest of the pulse has no effect",
+            km_h(lost),
+            km_h(has),
+            1e3 * stop.time_s
+        );
+        let hint = "write a greater `speed`, a smaller `delta_v`, or `rebound` for a vehicle that is driven back";
+        b.report(
+            Problem::warning("path", found, "a pulse that the vehicle's speed covers").with_hint(Some(hint.to_owned())),
+        );
+    }
 }
 
 /// The keys that each shape knows, besides those every pulse has.
@@ -112,16 +150,16 @@ fn keys_of(shape: PulseShape) -> &'static [&'static str] {
 }
 
 /// The shape of the pulse; `points` are those of its table, if it has one.
-fn shape(b: &mut Builder, s: &PulseSection, points: Option<Vec<DecelerationPoint>>) -> Option<Shape> {
-    refuse_foreign_keys(b, s);
-    if s.shape == PulseShape::Tabulated {
+fn shape(b: &mut Builder, s: &PulseSection, kind: PulseShape, points: Option<Vec<DecelerationPoint>>) -> Option<Shape> {
+    refuse_foreign_keys(b, kind);
+    if kind == PulseShape::Tabulated {
         if points.is_none() {
             b.error("path", "a tabulated pulse without a table", "`file`, or `columns` and `rows`");
         }
         return points.map(|points| Shape::Tabulated { points });
     }
     let strength = strength(b, s);
-    if s.shape == PulseShape::Trapezoid {
+    if kind == PulseShape::Trapezoid {
         return Some(Shape::Trapezoid {
             rise_s: b.needed("path", "rise", &s.rise),
             plateau_s: b.needed("path", "plateau", &s.plateau),
@@ -131,7 +169,7 @@ fn shape(b: &mut Builder, s: &PulseSection, points: Option<Vec<DecelerationPoint
     }
     let duration_s = b.needed("path", "duration", &s.duration);
     let strength = strength?;
-    Some(match s.shape {
+    Some(match kind {
         PulseShape::HalfSine => Shape::HalfSine { strength, duration_s },
         PulseShape::Haversine => Shape::Haversine { strength, duration_s },
         PulseShape::Triangle => Shape::Triangle { strength, duration_s, peak_fraction: si_or(&s.peak_fraction, 0.5) },
@@ -153,8 +191,8 @@ fn strength(b: &mut Builder, s: &PulseSection) -> Option<Strength> {
     }
 }
 
-fn refuse_foreign_keys(b: &mut Builder, s: &PulseSection) {
-    let known = keys_of(s.shape);
+fn refuse_foreign_keys(b: &mut Builder, kind: PulseShape) {
+    let known = keys_of(kind);
     let keys = ["peak", "delta_v", "duration", "peak_fraction", "rise", "plateau", "fall", "file", "columns", "rows"];
     let foreign: Vec<&str> = keys.into_iter().filter(|key| !known.contains(key)).collect();
     let expected = format!("of these keys only {}", known.join(", "));

@@ -142,6 +142,14 @@ fn a_ditch_is_the_section_of_its_slopes() {
     }
     let refused = short(&BRAKES.replace("friction = 0.8", "ditch = { edge = 3, foreslope = 0, depth = 2 }"));
     assert!(complaint(&refused).contains("out of range"));
+    // a slope as height over length is steeper than any roadside
+    for (slope, warns) in [("0.25", true), ("\"25 %\"", true), ("1", false), ("4", false)] {
+        let ditch = format!("ditch = {{ edge = 3, foreslope = {slope}, depth = 2 }}");
+        let loaded = load(&short(&BRAKES.replace("friction = 0.8", &ditch))).unwrap();
+        let (_, warnings) = loaded.build().unwrap();
+        let warnings = warnings.to_string();
+        assert_eq!(warnings.contains("`foreslope = 4`"), warns, "{slope}: {warnings}");
+    }
     let both = "ditch = { edge = 3, foreslope = 4, depth = 2 }\nsection = { right = [0, 1], height = [0, 0] }";
     assert!(!complaint(&short(&BRAKES.replace("friction = 0.8", both))).is_empty());
 }

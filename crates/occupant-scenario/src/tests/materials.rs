@@ -3,6 +3,7 @@
 use super::*;
 use crate::Draft;
 use crate::sections::schema;
+use nalgebra::Vector3;
 use occupant_core::forces::contact::material::Force;
 use occupant_core::forces::function::{Shape, Unloading};
 use occupant_core::model::Model;
@@ -10,6 +11,7 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
+use occupant_core::vehicle::{TravelDirection, VehiclePath};
 
 fn changed(changes: &[&str]) -> Result<(Model, String, Loaded), String> {
     let mut draft = Draft::read(SHORT, Format::Toml, "test").unwrap();
@@ -92,6 +94,47 @@ fn every_entry_of_the_library_is_listed_sound_and_tells_its_source() {
     }
     for (name, of) in [("webbing_atb", "webbings"), ("webbing_ng", "webbings"), ("torsion_bar", "limiters")] {
         assert!(changed(&[&format!("{of}.x={{ library = {name:?} }}")]).is_ok(), "{name}");
+    }
+}
+
+/// Change of speed, mean and peak deceleration of the pulses of tests of seats, as their rules tell them.
+#[test]
+fn pulses_of_the_library_have_the_numbers_of_their_rules() {
+    let rules = [
+        ("iiwpg_16", 16.0, 49.0, 98.1),
+        ("fmvss_202a", 17.3, 54.7, 86.0),
+        ("sra_16", 16.1, 42.35, 49.0),
+        ("sra_24", 24.45, 63.15, 73.6),
+    ];
+    let library = crate::presets::library().unwrap().root.get("vehicles").unwrap().as_table().unwrap();
+    assert_eq!(library.keys().collect::<Vec<_>>(), rules.map(|(name, ..)| name));
+    for (name, km_h, mean, peak) in rules {
+        let (model, _, loaded) = changed(&[&format!("path={{ kind = \"pulse\", library = {name:?} }}")]).unwrap();
+        let VehiclePath::Pulse(path) = &model.setup().path else { panic!("a pulse") };
+        let (from_s, to_s) = path.pulse_span_s();
+        assert_eq!(
+            path.definition().direction,
+            TravelDirection::Along(Vector3::new(-1.0, 0.0, 0.0)),
+            "{name}: from behind"
+        );
+        assert!((path.delta_v_m_s() * 3.6 - km_h).abs() < 0.07, "{name}: {}", path.delta_v_m_s());
+        assert!((path.delta_v_m_s() / (to_s - from_s) / mean - 1.0).abs() < 0.002, "{name}");
+        assert!((path.peak_deceleration_m_s2() / peak - 1.0).abs() < 0.005, "{name}");
+        assert!(loaded.explicit().provenance["path"].contains("recalled"));
+        assert_eq!(build(&loaded.explicit().to_toml().unwrap()).path, model.setup().path, "{name}");
+    }
+    let own = "path={ kind = \"pulse\", library = \"sra_24\", peak = \"5 g\", rise = \"20 ms\" }";
+    let (model, ..) = changed(&[own]).unwrap();
+    let VehiclePath::Pulse(path) = &model.setup().path else { panic!("a pulse") };
+    assert!((path.peak_deceleration_m_s2() - 5.0 * 9.80665).abs() < 1e-9, "own keys hold");
+    for (of, wanted) in [
+        ("library = \"sra_42\"", "did you mean \"sra_24\"?"),
+        ("speed = 5", "a pulse without `shape`"),
+        ("shape = \"square\", peak = 9, duration = 0.1", "`path` has no key `speed`"),
+        ("library = \"sra_24\", duration = 0.1", "this pulse shape does not use `duration`"),
+    ] {
+        let found = changed(&[&format!("path={{ kind = \"pulse\", {of} }}")]).unwrap_err();
+        assert!(found.contains(wanted), "{of}: {found}");
     }
 }
 

@@ -101,7 +101,7 @@ fn problems_are_reported_as_of_the_override() {
   |    ^^^
   = help: did you mean `mph`?
   = in: path.speed
-  = expected: a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)",
+  = expected: a unit such as m, in, s, deg, km/h, mph, g, kg, lb (mass), N, lbf (force)",
         ),
         (
             "belts.lap.k3=5",

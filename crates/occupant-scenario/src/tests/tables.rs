@@ -38,6 +38,33 @@ fn a_csv_file_gives_the_path_in_its_own_units() {
     assert_eq!(station.pose.position_m.z, 0.0);
 }
 
+/// A pulse that goes on when the vehicle has stopped, and a table with the signs of an accelerometer.
+#[test]
+fn a_pulse_that_the_speed_does_not_cover_is_warned_of() {
+    let warnings = |pulse: &str| {
+        let text = short_with(PULSE, &format!("kind = \"pulse\"\n{pulse}"));
+        let loaded = Scenario::from_text(&text, Format::Toml, "s.toml", &|_: &str| Err(String::new())).unwrap();
+        loaded.build().unwrap().1.to_string()
+    };
+    let table = |sign: &str| {
+        format!("shape = \"tabulated\"\ncolumns = [\"t[ms]\", \"a[g]\"]\nrows = [[0, 0], [50, {sign}20], [100, 0]]\n")
+    };
+    let square = "shape = \"square\"\nduration = \"0.1 s\"\n";
+    for (pulse, wanted) in [
+        (format!("{square}speed = \"50 km/h\"\ndelta_v = \"80 km/h\""), "it stops at 62.5 ms"),
+        (format!("{square}speed = \"50 km/h\"\ndelta_v = \"80 km/h\"\nrebound = \"30 km/h\""), ""),
+        (format!("{square}speed = \"50 km/h\"\ndelta_v = \"50 km/h\""), ""),
+        (format!("{}speed = \"30 km/h\"", table("")), "the pulse removes 35.3 km/h, but the vehicle has 30.0 km/h"),
+        (format!("{}speed = \"36 km/h\"", table("")), ""),
+        (format!("{}speed = \"30 km/h\"", table("-")), "the pulse speeds the vehicle up by 35.3 km/h"),
+        // pushed from rest: no speed is lost
+        (format!("{square}speed = 0\ndelta_v = \"-50 km/h\""), ""),
+    ] {
+        let found = warnings(&pulse);
+        assert!(if wanted.is_empty() { !found.contains("pulse") } else { found.contains(wanted) }, "{pulse}: {found}");
+    }
+}
+
 #[test]
 fn an_inline_table_gives_the_same_path() {
     let csv = "t[ms],x[ft],yaw[deg]\n0,0,0\n100,10,90\n200,20,180\n";

@@ -12,9 +12,7 @@ impl Binder<'_> {
         if sections.is_empty() {
             return None;
         }
-        let sampled =
-            matches!(design, Design::LatinHypercube { .. } | Design::Sobol { .. } | Design::MonteCarlo { .. });
-        if !sampled {
+        if !design.is_sampled() {
             let expected = "the design \"latin_hypercube\", \"sobol\" or \"monte_carlo\"";
             self.error("correlations", "correlations in a design that does not support them", expected, None);
             return None;
@@ -26,6 +24,9 @@ impl Binder<'_> {
             if !(-1.0..=1.0).contains(&section.rank) {
                 let found = format!("a correlation of {}", section.rank);
                 self.error(&format!("correlations[{n}].rank"), found, "a number from -1 to 1", None);
+            } else if let Some(crossed) = [a, b].into_iter().find(|i| parameters[*i].crossed) {
+                let found = format!("`{}` is crossed with all samples", parameters[crossed].name);
+                self.error(&format!("correlations[{n}]"), found, "parameters that are sampled", None);
             } else if a == b || ranks.iter().any(|(x, y, _)| [*x, *y] == [a, b] || [*x, *y] == [b, a]) {
                 let found = "a pair of parameters given twice, or a parameter with itself";
                 self.error(&format!("correlations[{n}]"), found, "each pair once", None);

@@ -1,6 +1,7 @@
 //! The `[design]` of a study, and whether it fits the parameters.
 
 use super::{Binder, table};
+use crate::crossing;
 use crate::design::Design;
 use crate::ensemble::Ensemble;
 use crate::parameter::Parameter;
@@ -56,9 +57,14 @@ impl Binder<'_> {
                 self.error("design", found, "a `grid` or a `list` for each parameter", Some(hint));
             }
         }
+        if design.is_sampled() && !parameters.is_empty() && parameters.iter().all(|parameter| parameter.crossed) {
+            let hint = "design = { kind = \"full_factorial\" } runs each combination once".to_owned();
+            self.error("design", "all parameters are crossed: nothing is sampled", "a parameter to sample", Some(hint));
+        }
         self.limits(parameters.len(), design);
         let members = ensemble.map_or(1, |e| e.members);
-        let runs = design.len(&levels).and_then(|n| n.checked_mul(members));
+        let crossing = crossing(parameters);
+        let runs = design.len(&levels).and_then(|n| n.checked_mul(crossing?)?.checked_mul(members));
         if runs.is_none_or(|n| n > MOST_RUNS) {
             let found = runs.map_or("more runs than can be counted".to_owned(), |n| format!("{n} runs"));
             self.error("design", found, format!("at most {MOST_RUNS} runs"), None);

@@ -16,6 +16,9 @@ impl Binder<'_> {
         let mut found: Vec<Parameter> = Vec::new();
         for (i, section) in sections.iter().enumerate() {
             let at = format!("parameters[{i}]");
+            if section.segments.is_some() {
+                self.is_crossed(section, &at);
+            }
             let ready = section.segments.as_ref().map(|most| self.segments(most.si(), &at));
             for parameter in ready.unwrap_or_else(|| self.parameter(section, &at).into_iter().collect()) {
                 self.clash(&parameter, &found, &at);
@@ -44,6 +47,7 @@ impl Binder<'_> {
             unit: "",
             apply: ApplyChoice::Factor,
             law: law.clone(),
+            crossed: false,
             targets,
         };
         found.into_iter().map(of).collect()
@@ -75,8 +79,26 @@ impl Binder<'_> {
             },
             apply,
             law,
+            crossed: self.is_crossed(section, at),
             targets: places.iter().map(Target::of).collect(),
         })
+    }
+
+    /// Whether a parameter is crossed with the samples of the others, as its section asks.
+    fn is_crossed(&mut self, section: &ParameterSection, at: &str) -> bool {
+        if section.crossed != Some(true) {
+            return false;
+        }
+        if section.grid.is_none() && section.list.is_none() {
+            let found = "`crossed` without a list of values";
+            self.error(&format!("{at}.crossed"), found, "a `list` or a `grid`", None);
+        }
+        if !self.text.section.design.as_ref().is_some_and(Design::is_sampled) {
+            let expected = "the design \"latin_hypercube\", \"sobol\" or \"monte_carlo\"";
+            let hint = "a full factorial design crosses all its parameters".to_owned();
+            self.error(&format!("{at}.crossed"), "`crossed` in a design that does not sample", expected, Some(hint));
+        }
+        true
     }
 
     /// The places of several paths, each once; none if any path leads nowhere.

@@ -141,6 +141,7 @@ impl Reader<'_, '_, '_> {
             unit: si_unit(&wanted),
             apply: ApplyChoice::Value,
             law: Law::Table,
+            crossed: false,
             targets: places.iter().map(Target::of).collect(),
         })
     }

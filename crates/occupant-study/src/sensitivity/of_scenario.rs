@@ -43,7 +43,7 @@ pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Re
         }
         _ => (ApplyChoice::Factor, "1"),
     };
-    let varied = crate::Parameter { name: path.to_owned(), unit, apply, law: Law::Table, targets };
+    let varied = crate::Parameter { name: path.to_owned(), unit, apply, law: Law::Table, crossed: false, targets };
     let nominal = match varied.nominal() {
         Value::Number(x) => x,
         _ => f64::NAN,

@@ -24,6 +24,37 @@ fn a_full_factorial_goes_through_the_last_parameter_first() {
     assert_eq!(rows, wanted);
 }
 
+/// Every sample of the others with every combination of crossed values, and the samples are those of the design without them.
+#[test]
+fn crossed_parameters_take_all_values_with_every_sample() {
+    let of = |crossed: &str| {
+        study(&format!(
+            "design = {{ kind = \"latin_hypercube\", samples = 5 }}
+            seed = 3
+            [[parameters]]
+            path = \"belts.lap.k1\"
+            range = {{ from = \"60 kN/m\", to = \"80 kN/m\" }}
+            {crossed}"
+        ))
+    };
+    let plain = of("");
+    let crossed = of("[[parameters]]
+        path = \"path.shape\"
+        list = [\"half_sine\", \"square\"]
+        crossed = true
+        [[parameters]]
+        path = \"materials.foam.k1\"
+        grid = { from = 1000, to = 3000, steps = 3 }
+        crossed = true");
+    assert_eq!((plain.len(), crossed.len(), crossed.crossing()), (5, 30, 6));
+    for index in 0..30 {
+        let values: Vec<Value> = crossed.sample(index).into_iter().map(|setting| setting.value).collect();
+        assert_eq!(values[0], plain.sample(index / 6)[0].value);
+        assert_eq!(values[1], Value::Text(["half_sine", "square"][(index / 3 % 2) as usize].to_owned()));
+        assert_eq!(values[2], Value::Number(1000.0 * (1 + index % 3) as f64));
+    }
+}
+
 #[test]
 fn a_logarithmic_grid_has_equal_ratios_and_exact_ends() {
     let study = study(

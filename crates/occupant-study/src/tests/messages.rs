@@ -417,3 +417,27 @@ error: a tail of 0.5
     let bare = "design.kind = \"full_factorial\"\n[[parameters]]\npath = \"materials.foam.friction\"\n";
     assert!(complaint(bare).contains("a parameter without values"));
 }
+
+#[test]
+fn crossed_parameters_that_cannot_be_are_told() {
+    let of = |design: &str, rest: &str| {
+        let text = format!("design = {{ {design} }}\n[[parameters]]\npath = \"belts.lap.k1\"\nname = \"k\"\n{rest}\n");
+        complaint(&text)
+    };
+    let sampled = "kind = \"monte_carlo\", samples = 9";
+    let range = "range = { from = 60000, to = 80000 }";
+    let list = "list = [60000, 80000]\ncrossed = true";
+    let shape =
+        "[[parameters]]\npath = \"path.shape\"\nname = \"shape\"\nlist = [\"half_sine\", \"square\"]\ncrossed = true";
+    let correlated = format!("{range}\n{shape}\n[[correlations]]\nbetween = [\"k\", \"shape\"]\nrank = 0.5");
+    for (found, wanted) in [
+        (of(sampled, &format!("{range}\ncrossed = true")), "`crossed` without a list of values"),
+        (of("kind = \"full_factorial\"", list), "`crossed` in a design that does not sample"),
+        (of(sampled, list), "all parameters are crossed: nothing is sampled"),
+        (of(sampled, &correlated), "`shape` is crossed with all samples"),
+        (of("kind = \"monte_carlo\", samples = 9000000", &format!("{range}\n{shape}")), "18000000 runs"),
+        (of(sampled, "[[parameters]]\nsegments = \"5 %\"\ncrossed = true"), "`crossed` without a list of values"),
+    ] {
+        assert!(found.contains(wanted), "{wanted}: {found}");
+    }
+}

@@ -53,7 +53,7 @@ pub const UNITS: &[NamedUnit] = &[
     unit(&["rad", "radian", "radians"], [0, 0, 0, 1], 1.0),
     unit(&["rev", "turn"], [0, 0, 0, 1], 2.0 * PI),
     unit(&["mph"], [1, 0, -1, 0], 0.447_04),
-    unit(&["kph", "kmh"], [1, 0, -1, 0], 1.0 / 3.6),
+    unit(&["kph", "kmh", "kmph"], [1, 0, -1, 0], 1.0 / 3.6),
     unit(&["knot", "knots"], [1, 0, -1, 0], 1852.0 / 3600.0),
     unit(&["g", "g0", "G"], [1, 0, -2, 0], GRAVITY_M_S2),
     unit(&["kg"], [0, 1, 0, 0], 1.0),
@@ -104,7 +104,7 @@ pub(super) fn named(name: &str, start: usize, end: usize) -> Result<Scale, UnitE
     let known = UNITS.iter().find(|u| u.names.contains(&name));
     known.map(|u| Scale { dimension: u.dimension, factor: u.factor }).ok_or_else(|| {
         let all = UNITS.iter().flat_map(|u| u.names.iter().copied());
-        let expected = "a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)";
+        let expected = "a unit such as m, in, s, deg, km/h, mph, g, kg, lb (mass), N, lbf (force)";
         let hint = nearest(name, all).map(|n| format!("did you mean `{n}`?"));
         UnitError { hint, ..UnitError::new(start, end, format!("unknown unit `{name}`"), expected) }
     })

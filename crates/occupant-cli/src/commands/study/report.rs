@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, is_page, print, say};
+use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, is_page, print, progress, say};
 use occupant_jobs::study::{Report, Tables, matrix_text, page, subject, write_tables};
 use occupant_jobs::sweep::stored::{MadeBy, open};
 use occupant_pictures::html::is_page_of;
@@ -43,7 +43,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let opened = open(&args.folders, MadeBy::AnyProgram)?;
     refuse_names(&page_at, &tables, args)?;
     let units = args.units.or(Some(opened.plan.study.base.units()));
-    let report = Report::of(opened, &args.to, units)?;
+    let report = Report::of(opened, &args.to, units, progress::show(false))?;
     let force = args.force || (args.output.is_none() && is_page_of(&page_at, &subject(&report)));
     if !force {
         refuse_there(&page_at, &tables)?;

@@ -2,6 +2,7 @@
 
 use occupant_core::diagnosis::{Clearance, Diagnosis, OnShoulder, Rate, SeatStart, SegmentFigures, ShoulderBelt, Way};
 use occupant_core::model::settle::Settled;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_scenario::{Dimension, Size};
 use placed_text::shown;
 
@@ -56,6 +57,9 @@ fn overview(d: &Diagnosis, units: Units) -> String {
         None => format!("{}, step under error control", run.integrator),
     };
     let speed = |m_s| units.say(m_s, "m/s", 3);
+    let pulse = vehicle.pulse.map_or_else(String::new, |[peak_m_s2, duration_s]| {
+        format!(", peak {} g over {} ms", trimmed(peak_m_s2 / STANDARD_GRAVITY_M_S2, 1), trimmed(1e3 * duration_s, 1))
+    });
     facts(&[
         (
             "occupant",
@@ -71,7 +75,7 @@ fn overview(d: &Diagnosis, units: Units) -> String {
         (
             "vehicle",
             format!(
-                "{} path: {} at the start, {} at the end, velocity change {}; {} surfaces",
+                "{} path: {} at the start, {} at the end, velocity change {}{pulse}; {} surfaces",
                 vehicle.path,
                 speed(vehicle.start_speed_m_s),
                 speed(vehicle.end_speed_m_s),

@@ -61,7 +61,8 @@ impl<'a> Marks<'a> {
     pub(crate) fn explained(&self) -> Option<String> {
         let star = self.unstable.iter().filter(|unstable| !unstable.is_empty());
         let star = star.map(|_| "* NOT STABLE under small changes, see below\n".to_owned());
-        let lines: Vec<_> = self.caveats.iter().map(|caveat| format!("! {}\n", caveat.text)).chain(star).collect();
+        let line = |caveat: &Caveat| format!("{} {}\n", if caveat.is_note() { "note:" } else { "!" }, caveat.text);
+        let lines: Vec<_> = self.caveats.iter().map(line).chain(star).collect();
         (!lines.is_empty()).then(|| lines.concat())
     }
 }

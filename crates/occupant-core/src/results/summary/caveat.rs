@@ -50,6 +50,11 @@ impl Caveat {
         self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
     }
 
+    /// Whether it spoils no figure: it says how far the model of the run can be trusted.
+    pub fn is_note(&self) -> bool {
+        self.figures.is_empty()
+    }
+
     /// The same for one of several occupants, whose name precedes those of its figures.
     pub(super) fn of_occupant(self, name: &str) -> Self {
         let figures =

@@ -76,7 +76,7 @@ impl Row {
     pub fn caveats(&self) -> impl Iterator<Item = Caveat> {
         self.caveats.split_whitespace().map(|word| {
             let (name, figures) = word.trim_end_matches(')').split_once('(').unwrap_or((word, ""));
-            let figures = figures.split(';').map(str::to_owned).collect();
+            let figures = figures.split(';').filter(|figure| !figure.is_empty()).map(str::to_owned).collect();
             Caveat { name: name.to_owned(), text: String::new(), figures }
         })
     }

@@ -7,7 +7,7 @@ use vehicle_motion::ground::{Curb, Ground, GroundError, Zone};
 use super::super::builder::Builder;
 use super::super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::super::{Angle, Length, Ratio};
-use placed_text::with_key;
+use placed_text::{Problem, with_key};
 
 /// What vehicles drive on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -116,6 +116,8 @@ impl DitchSection {
     }
 }
 
+/// A slope of a roadside that is steeper than 1V:1H was probably given as height over length.
+const STEEPEST: f64 = 1.0;
 /// Distance of a level corner beside a slope, m; the ground continues beyond it.
 const LEVEL_M: f64 = 5.0;
 
@@ -145,6 +147,19 @@ pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground,
         }
     }
     if let Some(ditch) = &s.ditch {
+        let slopes = [("foreslope", Some(&ditch.foreslope)), ("backslope", ditch.backslope.as_ref())];
+        for (key, slope) in slopes.into_iter().filter_map(|(key, slope)| Some((key, slope?.si()))) {
+            if slope < STEEPEST {
+                let found = format!(
+                    "{slope} m of length for 1 m of height, a slope of {:.0}°",
+                    (1.0 / slope).atan().to_degrees()
+                );
+                let hint = format!("horizontal length per unit of height: 1V:4H and 25 % are both `{key} = 4`");
+                let expected = format!("{STEEPEST} or more");
+                let place = with_key(&with_key(AT, "ditch"), key);
+                b.report(Problem::warning(&place, found, expected).with_hint(Some(hint)));
+            }
+        }
         match Ground::section(ditch.corners_m(), grade) {
             Ok(own) => ground = own,
             Err(error) => refused.push((with_key(AT, "ditch"), error)),
