@@ -115,8 +115,6 @@ pub struct ContactSphere {
     pub part: String,
     /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 by default.
     pub share: f64,
-    /// The same on bars thinner than itself, which cross a limb: capsules and rims; 1 by default.
-    pub bar_share: f64,
     /// How it rides on parts of its segment that yield; not at all by default.
     pub ride: Ride,
 }
@@ -132,7 +130,6 @@ impl ContactSphere {
             centre_from_lower_end_m,
             radius_m,
             share: 1.0,
-            bar_share: 1.0,
             ride: Ride::default(),
         }
     }
