@@ -155,6 +155,50 @@ fn books_close_with_a_pretensioner_on_the_back() {
     assert_below("energy balance", outcome.energy.balance_error, 1e-5);
 }
 
+/// A driver who lies back at 40 degrees, 50 km/h into a stop, with a belt on the seat.
+const RECLINED: &str = r#"
+title = "a belt on a seat"
+time = { end = "120 ms" }
+path = { kind = "pulse", shape = "half_sine", speed = "50 km/h", delta_v = "50 km/h", duration = "100 ms" }
+
+[car.seats.driver]
+belt = "seat"
+recline = 40
+"#;
+
+#[test]
+fn a_reclined_driver_pulls_the_back_ahead_with_a_belt_on_the_seat() {
+    let lean = |set: &[&str]| {
+        let model = Model::new(setup(RECLINED, set)).unwrap_or_else(|problems| panic!("{set:?}: {problems}"));
+        let channel = channels(&model).into_iter().find(|c: &Channel| c.name == "hinge.driver_recliner.angle").unwrap();
+        let mut series = Series::new(vec![channel]);
+        let outcome = simulate(&model, &mut series).unwrap();
+        assert_eq!(outcome.status, Status::Completed);
+        assert_below("energy balance", outcome.energy.balance_error, 1e-3);
+        series.values[0].iter().fold(0.0_f64, |least, angle| least.min(*angle))
+    };
+    let (usual, pillar) =
+        (lean(&[]), lean(&["car.seats.driver.belt=three_point", "car.seats.driver.back_moment=3.75 kN m"]));
+    // ahead is negative: the limiter's force at 0.6 m, and weight, on the spring of the recliner
+    assert!((-0.3..-0.01).contains(&usual) && usual < 1.5 * pillar, "{usual} {pillar}");
+}
+
+#[test]
+fn backs_yield_by_their_years() {
+    let moments = |set: &[&str]| {
+        let setup = setup(RECLINED, &[&["car.seats.driver.belt=three_point"], set].concat());
+        let hinges = setup.columns.iter().filter(|column| column.hinge.is_some());
+        hinges.map(|column| column.force.points[1][1]).collect::<Vec<_>>()
+    };
+    for (years, expected) in [("1970s", 850.0), ("1990s", 1100.0), ("2000s", 1700.0)] {
+        let years = format!("car.years={years}");
+        assert_eq!(moments(&[&years]), [expected]);
+        assert_eq!(moments(&[&years, "car.seats.driver.back_moment=2 kN m"]), [2000.0]);
+    }
+    assert!(moments(&[]).is_empty());
+    assert_eq!(moments(&["car.seats.driver.belt=seat"]), [3750.0]);
+}
+
 #[test]
 fn frames_of_no_vehicle_carry_no_webbing() {
     for (set, expected) in [

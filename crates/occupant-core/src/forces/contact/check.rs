@@ -67,13 +67,19 @@ fn check_material(m: &Material, problems: &mut Problems) {
     }
 }
 
+/// What a pane bears at least, N or J.
+const LEAST_LIMIT: f64 = 1e-3;
+
 /// A pane bears something, and its laws are known as deep as a sphere may go.
 fn check_breaking(m: &Material, breaks: &Breaking, path: &str, problems: &mut Problems) {
     let (key, unit) = match breaks.limit {
         Limit::Force(_) => ("force", "N"),
         Limit::Energy(_) => ("energy", "J"),
     };
-    problems.check_positive(&with_key(path, key), breaks.limit.value(), unit);
+    let limit = breaks.limit.value();
+    if !(LEAST_LIMIT..f64::INFINITY).contains(&limit) {
+        problems.error(with_key(path, key), format!("{limit} {unit}"), format!("at least {LEAST_LIMIT} {unit}"));
+    }
     if let Some(left) = &breaks.left {
         left.check(path, problems);
     }
