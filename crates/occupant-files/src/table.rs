@@ -210,7 +210,7 @@ impl<W: Write + Send> Table<W> {
     /// Ends the table and returns its target.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// An error of the writer.
     pub fn finish(mut self) -> io::Result<W> {
         self.flush()?;
         match self.writer {
@@ -344,7 +344,7 @@ impl TableFile {
     /// Renames the complete file.
     ///
     /// # Errors
-    /// What the writer or an error of the operating system.
+    /// An error of the writer or of the operating system.
     pub fn publish(self) -> Result<PathBuf, Failure> {
         let file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
         file.publish().map_err(|e| broke_off(&e))

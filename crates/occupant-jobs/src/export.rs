@@ -39,7 +39,7 @@ impl TableFiles {
     /// Writes the table and renames the files.
     ///
     /// # Errors
-    /// What the writer or the file system refuses.
+    /// An error of the writer or the file system.
     pub fn write(mut self, histories: &Histories, about: &About, units: UnitChoice) -> Result<(), Failure> {
         let bytes = table(histories, about, units, self.form)
             .map_err(|error| Failure::plain(format!("{} cannot be made: {error}", self.path.display())))?;

@@ -136,7 +136,7 @@ pub(super) fn buckle_m(kind: CarBelt) -> [f64; 3] {
     if kind == CarBelt::Lap { INNER_ANCHOR_M } else { BUCKLE_M }
 }
 
-/// Where the D-ring of somebody's seat stands, whose design place is so far ahead of it: behind, outboard, above, m.
+/// Position of the D-ring relative to a seat whose design position is this far ahead of it: behind, outboard, above, m.
 pub(super) fn d_ring_m(stature_m: f64, seat: &Seat) -> [f64; 3] {
     let [down, up] = ADJUSTS_M;
     let notches = (ADJUSTS * (stature_m - ADJUSTED_FOR_M) / NOTCH_M).round();

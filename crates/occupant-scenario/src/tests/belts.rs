@@ -107,7 +107,7 @@ fn numbers_of_belts_come_to_their_data() {
     }
 }
 
-/// What a run of the driver shows.
+/// Results of a run of the driver.
 #[derive(Default)]
 struct Seen {
     peaks_n: Vec<f64>,

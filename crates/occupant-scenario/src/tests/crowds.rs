@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{load, short_with};
 
-/// What is said of the short scenario with `head` and `count` rows; how it comes to rest where nothing is wrong.
+/// Messages on the short scenario with `head` and `count` rows; its settling if there is no error.
 fn said(head: &str, count: usize, row: impl Fn(usize) -> String) -> Result<[f64; 2], String> {
     let mut text = format!("{}\n{head}\n", short_with("settle = false", "settle = true"));
     (0..count).for_each(|i| writeln!(text, "{}", row(i)).unwrap());

@@ -65,7 +65,7 @@ impl StudyText {
     /// sweeps and count for nothing here.
     ///
     /// # Errors
-    /// As [`StudyText::bind`]; a parameter that has no ends.
+    /// As [`StudyText::bind`]; a parameter without finite ends.
     pub fn bind_fit(
         &self,
         base: Draft,

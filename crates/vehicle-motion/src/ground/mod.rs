@@ -59,9 +59,9 @@ pub enum GroundError {
     Order {
         /// Its number, counted from 1.
         number: usize,
-        /// Where it lies, m.
+        /// Its position, m.
         right_m: f64,
-        /// Where the one before lies, m.
+        /// Position of the one before, m.
         before_m: f64,
     },
     /// A curb that does not fit.

@@ -1,4 +1,4 @@
-//! What a bag contributes to results.
+//! Results of a bag.
 
 use nalgebra::Point3;
 use occupant_units::unit::Unit::{

@@ -1,4 +1,4 @@
-//! What a column contributes to results.
+//! Results of a column.
 
 use occupant_units::unit::Unit::{
     Joule, Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian, RadianPerSecond, Second,

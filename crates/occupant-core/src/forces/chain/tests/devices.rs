@@ -147,7 +147,7 @@ fn drawn_out(device: Device, by: f64) -> Rig {
     rig
 }
 
-/// What is no number is told with the belt, not taken for a motion.
+/// NaN is reported with the belt and not used as a motion.
 #[test]
 fn tensions_that_are_not_found_are_told() {
     let data = chain(&[0.2], webbing(1.0), fixed(), Rest::Slack(0.0));
