@@ -152,7 +152,7 @@ impl<W: Write + Send> Table<W> {
     /// Begins a table; `about` is in the metadata of a Parquet file.
     ///
     /// # Errors
-    /// Two columns of one name; what the writer refuses.
+    /// Two columns with one name; an error of the writer.
     pub fn new(to: W, form: Form, columns: &[(impl AsRef<str>, Kind)], about: &[(&str, String)]) -> io::Result<Self> {
         let mut names = std::collections::HashSet::new();
         if let Some((name, _)) = columns.iter().find(|(name, _)| !names.insert(name.as_ref())) {
@@ -173,7 +173,7 @@ impl<W: Write + Send> Table<W> {
     /// Adds a row with a cell per column, of the column's type.
     ///
     /// # Errors
-    /// More or fewer cells than columns; a text among numbers; what the writer refuses.
+    /// More or fewer cells than columns; a text among numbers; an error of the writer.
     pub fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
         if cells.len() != self.kinds.len() {
             let found = format!("a row of {} cells in a table of {} columns", cells.len(), self.kinds.len());

@@ -69,7 +69,7 @@ fn beside(table: &Path) -> PathBuf {
 /// Writes the files of an ISO-MME test into a temporary folder, renamed when complete.
 ///
 /// # Errors
-/// A folder that exists and may not be replaced or holds something else; what the file system refuses.
+/// A folder that exists and may not be replaced or holds something else; an error of the file system.
 pub fn publish_folder(folder: &Path, test: &str, files: &[(PathBuf, String)], force: bool) -> Result<(), Failure> {
     let place = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let is_there = || fs::symlink_metadata(&place).is_ok();

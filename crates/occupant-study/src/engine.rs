@@ -53,7 +53,7 @@ pub trait Source: Sync {
     /// An error that ends all runs.
     fn end(&self, run: Finished<Self::Recorder>) -> Result<Self::Row, Self::Error>;
 
-    /// Puts away what a run was recorded with that was stopped on its way; it has no row.
+    /// Discards the recorder of an interrupted run, which has no row.
     ///
     /// # Errors
     /// An error that ends all runs.

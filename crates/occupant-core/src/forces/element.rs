@@ -138,7 +138,7 @@ pub trait Element: Copy + Debug {
         S::zero()
     }
 
-    /// Fraction of the way between `before` and `now`, at the times `times_s`, at which the first switch of the element
+    /// Fraction of the interval between `before` and `now`, at the times `times_s`, at which the first switch of the element
     /// with this number was due; none if unknown. Up to 0 it was due before.
     fn due<S: Scalar<Mask = bool>>(
         _law: &Self::Law<S>,

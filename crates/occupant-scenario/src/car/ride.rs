@@ -10,7 +10,7 @@ use crate::sections::{AnchorSection, CarBelt, CarClass, si_or};
 const D_RING_M: [f64; 3] = [0.42, 0.27, 0.62];
 /// D-ring in the rear, where backs lean more and there is no height adjuster; ours.
 const REAR_D_RING_M: [f64; 3] = [0.46, 0.27, 0.56];
-/// Stature for which the D-ring stands there, how far its height adjuster follows the trunk per stature, its notches and how far that goes
+/// Stature for this position of the D-ring, slope of its height adjuster over the stature, its notches and its range
 /// down and up, m; ours.
 const ADJUSTED_FOR_M: f64 = 1.75;
 const ADJUSTS: f64 = 0.35;

@@ -57,7 +57,7 @@ fn surfaces_that_all_share_one_edge_are_refused() {
     assert!(found.clone().unwrap_err().contains("too many neighbours"), "{found:?}");
 }
 
-/// Each step of a run would look at all of them, and be as short as so many springs ask for.
+/// Each step of a run would evaluate all of them, and be as short as their total stiffness requires.
 #[test]
 fn a_body_that_touches_things_by_thousands_is_refused() {
     let under = |count: usize| {

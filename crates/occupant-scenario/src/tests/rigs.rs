@@ -147,7 +147,7 @@ fn driven(rows: &str) -> [f64; 7] {
     [turned, at_ms, bent, bent_ms, most(&neck).0, moment("neck.moment.y"), moment("joint.neck_base.moment.y")]
 }
 
-/// A neck of the dead at pulses of volunteers' tests: it turns until its ligaments are taut, and no further. The scenario tells the
+/// A cadaver neck at the pulses of volunteer tests: it bends until its ligaments are taut. The scenario tells the
 /// figures; none is a test's.
 #[test]
 fn the_neck_of_a_person_driven_at_t1_turns_until_it_is_taut() {

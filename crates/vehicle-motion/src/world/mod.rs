@@ -132,7 +132,7 @@ pub struct Outcome {
 /// Travel of a barrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slid {
-    /// Largest way, m.
+    /// Largest displacement, m.
     pub most_m: f64,
     /// Direction, clockwise from X, rad.
     pub direction_rad: f64,

@@ -220,7 +220,7 @@ mod tests {
         );
     }
 
-    /// A frontal rule says nothing of a dummy that is struck from the side, nor the other way.
+    /// A frontal rule does not apply to a side-impact dummy, nor vice versa.
     #[test]
     fn rules_hold_for_dummies_of_their_own_blow() {
         for (rule, own, other) in [

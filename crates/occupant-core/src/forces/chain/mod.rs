@@ -296,7 +296,7 @@ fn bear<S: Scalar>(
     }
 }
 
-/// Applies a force at a point of a segment, which may ride on deformable parts, with its power; space axes.
+/// Applies a force at a point of a segment, which may move with plates, with its power; space axes.
 #[inline(always)]
 fn pull<S: Scalar>(
     at: &Instant<'_, S>,
