@@ -11,7 +11,7 @@ use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
 use occupant_tests::room::{Last, ends_alike_side_by_side, run, setup};
 
-const ABREAST: &str = include_str!("../../scenarios/side-by-side.toml");
+const ABREAST: &str = include_str!("../data/hand/side-by-side.toml");
 const PEDESTRIAN: &str = include_str!("../../scenarios/pedestrian.toml");
 
 /// An occupant that is far away, and what is thrown past him.

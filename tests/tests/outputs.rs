@@ -11,7 +11,7 @@ use occupant_tests::rod::{Pin, Rod};
 use occupant_tests::room::{FINE, setup};
 use occupant_tests::strap::{FALLS, Strap, mass_text};
 
-const TWO: &str = include_str!("../../scenarios/two-vehicles.toml");
+const TWO: &str = include_str!("../data/hand/two-vehicles.toml");
 const LAP: &str = include_str!("../../scenarios/cart-lap.toml");
 const SOLIDS: &str = include_str!("../../tests/data/hand/rear-seat-solids.toml");
 
@@ -149,7 +149,7 @@ fn what_happens_to_belts_does_not_depend_on_the_outputs() {
         assert_eq!(often.len(), seldom.len(), "{often:?} {seldom:?}");
         assert!(often.len() > 4, "{often:?}");
         for (one, other) in often.iter().zip(&seldom) {
-            assert_eq!((&one.name, one.what), (&other.name, other.what));
+            assert_eq!((&one.name, &one.what), (&other.name, &other.what));
             // ends of steps of fixed length count from the output before
             assert!((one.time_s - other.time_s).abs() < 1e-12, "{one:?} {other:?}");
         }

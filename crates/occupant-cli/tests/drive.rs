@@ -30,6 +30,28 @@ fn words(report: &Value) -> String {
 
 const CAR: &str = "vehicles.car = { preset = \"sedan\", start = { speed = 15 } }\n";
 
+/// The whole drive in a file for viewers: vehicles, a rail that moves, numbers, events, the report.
+#[test]
+fn a_drive_is_written_for_viewers() {
+    let pickup = "vehicles.car = { preset = \"pickup\", start = { speed = 25, yaw = 20 } }\n";
+    let folder = folder_with(&format!("{pickup}barriers.rail = {{ kind = \"rail\", line = [[-20, 3], [60, 3]] }}"));
+    done(folder.path(), &["drive", "case.toml", "-o", "case.mcap", "--interval", "10 ms"]);
+    let bytes = fs::read(folder.path().join("case.mcap")).expect("a file");
+    let mut counts = std::collections::BTreeMap::new();
+    for message in mcap::MessageStream::new(&bytes).expect("an MCAP file") {
+        *counts.entry(message.expect("a message").channel.topic.clone()).or_insert(0) += 1;
+    }
+    // a row every 10 ms of 1 s; the rail moves for 0.5 s and is drawn every 5 ms or seldomer
+    assert_eq!((counts["/drive/car"], counts["/tf"], counts["/scene/drive"]), (101, 101, 1), "{counts:?}");
+    assert!(counts["/scene/rails"] > 20 && counts["/log"] >= 2, "{counts:?}");
+    let summary = mcap::Summary::read(&bytes).expect("a summary").expect("a summary");
+    let names: Vec<&str> = summary.attachment_indexes.iter().map(|own| own.name.as_str()).collect();
+    assert_eq!(names, ["resolved.toml", "report.json"]);
+    // the same scenario, the same bytes
+    done(folder.path(), &["drive", "case.toml", "-o", "again.mcap", "--interval", "10 ms"]);
+    assert!(fs::read(folder.path().join("again.mcap")).expect("a file") == bytes);
+}
+
 #[test]
 fn a_wall_is_a_collision_and_no_spin() {
     let folder = folder_with(&format!("{CAR}barriers.wall = {{ kind = \"wall\", at = [3, 0] }}"));

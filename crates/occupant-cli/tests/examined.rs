@@ -279,7 +279,7 @@ fn intervals_are_those_of_errors_of_the_sensors() {
 fn other_vehicles_and_strengths_are_judged() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let two = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/two-vehicles.toml");
+    let two = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hand/two-vehicles.toml");
     let change =
         |flags: &[&str]| value(&measures(here, &[&[two][..], flags].concat()), "final_velocity_change_x_m_s") * 3.6;
     for (flags, expected) in [(&[][..], -23.0), (&["--vehicle", "vehicle"], -23.0), (&["--vehicle", "light"], -37.0)] {

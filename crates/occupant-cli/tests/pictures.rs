@@ -232,7 +232,7 @@ fn peaks_of_all_elements_have_their_own_units() {
 #[test]
 fn each_occupant_has_plots_in_the_units_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/side-by-side.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hand/side-by-side.toml");
     let run = answer(folder.path(), &["run", scenario, "--quiet", "-o", "run.mcap", "--set", "time.end=5 ms"]);
     assert_eq!(code(&run), 0, "{}", err(&run));
     assert_eq!(code(&answer(folder.path(), &["report", "run.mcap", "--units", "in-lbf-s"])), 0);

@@ -430,7 +430,7 @@ fn any_body_and_every_occupant_and_vehicle_is_printed() {
     for (file, words) in [
         ("sled-17-segments.toml", &["left_hand", "left_foot", "CARDS HAVE ROOM FOR THE REPORT'S BODY ALONE"][..]),
         (
-            "two-vehicles.toml",
+            "../tests/data/hand/two-vehicles.toml",
             &["light.head", "heavy.lap", "VEHICLE LIGHT: POSITION", "TOTAL MASS", "VEHICLE LIGHT\n"][..],
         ),
         ("neck-pendulum.toml", &["head"][..]),

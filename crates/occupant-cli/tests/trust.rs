@@ -103,7 +103,8 @@ fn keys_are_found_by_what_people_call_them() {
 #[test]
 fn several_occupants_are_refused_an_endless_run_as_one_is() {
     let folder = folder();
-    fs::write(folder.path().join("two.toml"), include_str!("../../../scenarios/side-by-side.toml")).expect("written");
+    fs::write(folder.path().join("two.toml"), include_str!("../../../tests/data/hand/side-by-side.toml"))
+        .expect("written");
     done(folder.path(), &["run", "two.toml", "--set", "time.end=5 ms", "-q", "-o", "two.mcap"]);
     for (interval, said) in [("1e-300 s", "readings"), ("1e300 s", "no longer than the run")] {
         let output = answer(folder.path(), &["measures", "two.mcap", "--interval", interval]);

@@ -72,6 +72,7 @@ pub(crate) fn three_point(body: &Body, due_s: f64) -> Chain {
         friction,
         strength_n: NEVER,
         ride: Vec::new(),
+        frame: None,
     };
     let cue = |due_s| Cue { due_s, watch: None };
     let lines = |points: &[[f64; 2]], returned| Function::lines(points.to_vec(), returned);

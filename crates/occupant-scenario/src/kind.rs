@@ -102,10 +102,12 @@ pub const FREQUENCY: usize = 25;
 pub(crate) const DAMPING: usize = 26;
 /// Damping by the square of speed.
 pub(crate) const QUADRATIC_DAMPING: usize = 27;
+/// Energy.
+pub(crate) const ENERGY: usize = 28;
 
 /// All kinds.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 28] = [
+pub const KINDS: [Kind; 29] = [
     kind("length", "a length", Unit::Metre, "0.3, \"12 in\", \"305 mm\""),
     kind("time", "a time", Unit::Second, "0.08, \"80 ms\""),
     kind("angle", "an angle", Unit::Radian, "15, \"15 deg\", \"0.26 rad\""),
@@ -134,6 +136,7 @@ pub const KINDS: [Kind; 28] = [
     kind("frequency", "a frequency", Unit::Hertz, "15, \"15 Hz\""),
     kind("damping", "a damping", Unit::NewtonSecondPerMetre, "640, \"640 N s/m\""),
     kind("quadratic damping", "a damping by the square of speed", Unit::NewtonSecondSquaredPerMetreSquared, "116, \"116 N s^2/m^2\""),
+    kind("energy", "an energy", Unit::Joule, "20, \"20 J\", \"177 in lbf\""),
 ];
 
 impl Kind {

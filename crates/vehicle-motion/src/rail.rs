@@ -117,7 +117,7 @@ impl Beam {
     }
 
     fn inner(&self, y: &[f64], memory: &BeamMemory) -> Inner {
-        let piece = |j: isize| (self.way_m(y, j) - self.way_m(y, j - 1)).hypot(self.step_m) - self.step_m;
+        let piece = |j: isize| long(self.way_m(y, j) - self.way_m(y, j - 1), self.step_m) - self.step_m;
         let length_m: f64 = (0..=self.count as isize).map(piece).sum();
         let pull_n = (self.pull_n_per_m * (length_m - memory.stretched_m)).clamp(0.0, self.rail.yield_n);
         Inner { pull_n, length_m }
@@ -143,7 +143,7 @@ impl Beam {
         let Inner { pull_n, .. } = self.inner(y, memory);
         let slope = |j: isize| {
             let rise = self.way_m(y, j) - self.way_m(y, j - 1);
-            rise / rise.hypot(self.step_m)
+            rise / long(rise, self.step_m)
         };
         let moment = |j: isize| self.moment_n_m(y, j, memory);
         let (mut before, mut here) = (0.0, moment(0));
@@ -231,7 +231,7 @@ impl Beam {
             let place_m = pose.at_m + pose.axes * node.place_m;
             let at = self.beside(y, &place_m)?;
             let over_m = at.2 - (place_m - self.start_m()).dot(&self.away);
-            Some(over_m / at.3.hypot(1.0))
+            Some(over_m / long(at.3, 1.0))
         };
         shape.nodes.iter().filter_map(gap).fold(f64::INFINITY, f64::min)
     }
@@ -298,7 +298,7 @@ impl Beam {
             if behind_m <= 0.0 {
                 continue;
             }
-            let steep = at.3.hypot(1.0);
+            let steep = long(at.3, 1.0);
             let normal = (self.along * at.3 - self.away) / steep;
             let facing = -(pose.axes * node.normal).dot(&normal);
             if facing > 0.0 {
@@ -306,6 +306,11 @@ impl Beam {
             }
         }
     }
+}
+
+/// Length of what goes so far ahead and aside, in numbers of usual size: `hypot` of the system is slow, and its bits are the system's.
+fn long(aside: f64, ahead: f64) -> f64 {
+    (aside * aside + ahead * ahead).sqrt()
 }
 
 #[cfg(test)]

@@ -254,7 +254,7 @@ fn so_is_one_of_other_elements() {
         (include_str!("../../../tests/data/hand/airbag-driver.toml"), bag),
         (include_str!("../../../tests/data/hand/column-driver.toml"), column),
         (include_str!("../../../tests/data/hand/rear-seat-solids.toml"), solids),
-        (include_str!("../../../scenarios/side-by-side.toml"), several),
+        (include_str!("../../../tests/data/hand/side-by-side.toml"), several),
     ];
     let mut failures = Vec::new();
     for (text, rows) in cases {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::{Done, Failure, UnitsArg, note, print, publish, refuse_input, say};
 use occupant_files::table::Form;
-use occupant_jobs::drive::{Driven, columns, json, path_columns, plan, text, write};
+use occupant_jobs::drive::{Driven, columns, film, json, path_columns, plan, text, write};
 use occupant_jobs::files::scenario::{self, ScenarioArgs};
 use occupant_pictures::Format;
 
@@ -20,7 +20,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
-    /// Write a vehicle's motion, wheels and accelerations as a table that `occupant risk` reads: .csv, .parquet, .xlsx or .mat
+    /// Write all vehicles, road, barriers, tyre marks and events for a viewer (.mcap), or a vehicle's motion, wheels and
+    /// accelerations as a table that `occupant risk` reads (.csv, .parquet, .xlsx or .mat)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -40,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME")]
     vehicle: Option<String>,
 
-    /// Time between two rows of the table
+    /// Time between two rows of a table, or two frames of an .mcap
     #[arg(long, value_name = "TIME", default_value = "1 ms", value_parser = super::flags::history::interval)]
     interval: f64,
 
@@ -69,6 +70,12 @@ pub(crate) fn drive(args: &Args) -> Result<Done, Failure> {
     }
     let Some(output) = args.output.as_ref().or(args.path.as_ref()) else { return Ok(Done::Well) };
     refuse_input(output, &args.scenario.scenario)?;
+    if args.path.is_none() && output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) {
+        let scenario = loaded.scenario.to_toml().map_err(|e| Failure::plain(e.to_string()))?;
+        publish(output, args.force, &film(&drives, &all, &loaded.scenario.title, scenario, args.interval)?)?;
+        say(&format!("wrote {}", output.display()));
+        return Ok(Done::Well);
+    }
     let named = |name: &String| drives.vehicles.iter().position(|own| own.name == *name);
     let vehicle = match &args.vehicle {
         Some(name) => named(name).ok_or_else(|| {

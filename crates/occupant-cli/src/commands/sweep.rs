@@ -1,6 +1,7 @@
 //! `occupant sweep`.
 
 mod merge;
+mod status;
 
 use std::path::{Path, PathBuf};
 
@@ -72,12 +73,14 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 enum Step {
     Merge(merge::MergeArgs),
+    Status(status::StatusArgs),
 }
 
 /// Runs a sweep, or merges one.
 pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
     match (&args.command, &args.study) {
         (Some(Step::Merge(args)), _) => merge::merge(args),
+        (Some(Step::Status(args)), _) => status::status(args).map(|()| Done::Well),
         (None, Some(study)) => {
             let output = args.output.clone().map_or_else(|| flags::folder_of(study), Ok)?;
             let sweep = open(args, study, &output)?;

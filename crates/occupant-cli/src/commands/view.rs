@@ -198,7 +198,7 @@ fn lines(loaded: &Loaded, model: &Model, with_seats: bool) -> Vec<Measured> {
             };
             let label = match own.size {
                 Size::Distance(m) if m > 0.0 => format!("{title} {:.0}", m * 1e3),
-                Size::Distance(_) => return None,
+                Size::Distance(_) | Size::Force(_) | Size::Moment(_) | Size::Word(_) => return None,
                 Size::Angle(rad) => format!("{title} {:.0}°", rad.to_degrees()),
             };
             is_drawn.then_some(Measured { label, ends_m: own.ends_m, is_angle: matches!(own.size, Size::Angle(_)) })

@@ -99,7 +99,7 @@ fn what_cannot_be_plotted_is_said() {
 #[test]
 fn every_occupant_and_every_vehicle_has_its_plots() {
     let folder = tempfile::tempdir().unwrap();
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/two-vehicles.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hand/two-vehicles.toml");
     well(folder.path(), &["run", scenario, "-q", "-o", "two.mcap", "--until", "120 ms"]);
     let said = well(folder.path(), &["plot", "two.mcap", "--each", "single"]);
     let files: Vec<String> = std::fs::read_dir(folder.path().join("single"))

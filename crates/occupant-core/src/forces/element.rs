@@ -138,6 +138,15 @@ pub trait Element: Copy + Debug {
         S::zero()
     }
 
+    /// Lanes where any element has switched between two memories of all.
+    #[inline(always)]
+    fn any_switched<S: Scalar>(before: &[Self::Past<S>], now: &[Self::Past<S>]) -> S::Mask {
+        before.iter().zip(now).fold(S::truth(false), |mask, (before, now)| {
+            let (before, now) = (Self::switches::<S>(before), Self::switches::<S>(now));
+            mask | before.lt(now) | now.lt(before)
+        })
+    }
+
     /// Fraction of the interval between `before` and `now`, at the times `times_s`, at which the first switch of the element
     /// with this number was due; none if unknown. Up to 0 it was due before.
     fn due<S: Scalar<Mask = bool>>(
@@ -283,8 +292,8 @@ impl<'a, S: Scalar> Instant<'a, S> {
 
 /// Largest number of legs of all bodies.
 pub(crate) const MOST_LEGS: usize = 2 * MOST_BODIES;
-/// Largest number of yielding frames (columns, hinges).
-pub(crate) const MOST_GIVING: usize = 2;
+/// Most frames that yield.
+pub(crate) const MOST_GIVING: usize = 4;
 
 /// Loads on the segments except gravity, and their powers.
 #[derive(Clone, Copy, Debug)]

@@ -326,14 +326,7 @@ macro_rules! kinds {
             /// Lanes where an element has switched between this memory and `now`, of the same elements.
             #[inline(always)]
             pub fn has_switched(&self, now: &Self) -> S::Mask {
-                let mut mask = S::truth(false);
-                $(
-                    for (before, now) in self.$kind.iter().zip(&now.$kind) {
-                        let (before, now) = ($Kind::switches::<S>(before), $Kind::switches::<S>(now));
-                        mask = mask | before.lt(now) | now.lt(before);
-                    }
-                )+
-                mask
+                S::truth(false) $(| $Kind::any_switched::<S>(&self.$kind, &now.$kind))+
             }
         }
 

@@ -72,8 +72,19 @@ pub trait Reported: Element + 'static {
     ) {
     }
 
-    /// Events at accepted steps, as texts of [`Reported::event`]: all that [`Reported::switched`] and
-    /// [`Reported::told`] report.
+    /// How many there are of what has events at accepted steps.
+    fn most_told(law: &Self::Law<f64>) -> usize {
+        if Self::BY_STEPS.is_empty() { 0 } else { Self::most_actions(law) }
+    }
+
+    /// What events are told of, in the order of their numbers: a name, and what follows the words of the event.
+    fn tellers(data: Self::Data<'_>, _law: &Self::Law<f64>, _body: &Body) -> Vec<[String; 2]> {
+        let named = Self::named(data).into_iter().filter(|_| Self::TELLS);
+        named.map(|one| [one.name.to_owned(), String::new()]).collect()
+    }
+
+    /// Events at accepted steps, as text of [`Reported::event`]: all that [`Reported::switched`] and [`Reported::told`]
+    /// report.
     const BY_STEPS: &'static [&'static str] = &[];
 
     /// Shows the events of an element between two accepted steps, by its tracked values there.

@@ -147,6 +147,13 @@ impl<S: Scalar> Spring<S> {
         (f1 + f2, half * f1 * e1 + self.k1 * a * e2 + half * f2 * e2)
     }
 
+    /// Work of loading up to a deformation, J.
+    pub(crate) fn work(&self, top: S) -> S {
+        let (o, half) = (S::zero(), S::of(0.5));
+        let (a, b) = (top.min(self.limit).max(o), (top - self.limit).max(o));
+        half * self.k1 * a * a + (self.k1 * a + half * self.k2 * b) * b
+    }
+
     /// Deformation at which the slope changes, m.
     pub(crate) fn knee(&self) -> S {
         self.limit

@@ -38,7 +38,7 @@ struct Counts<'a>(&'a Forces<f64>, Vec<(&'static str, usize)>);
 
 impl Visitor for Counts<'_> {
     fn visit<E: Listed>(&mut self) {
-        let count = if E::BY_STEPS.is_empty() { 0 } else { E::most_actions(E::law(self.0)) };
+        let count = E::most_told(E::law(self.0));
         self.1.extend((0..count).map(|element| (E::NAMES[0], element)));
     }
 }

@@ -10,6 +10,7 @@ mod channel;
 pub mod checkpoint;
 mod clock;
 mod descriptor;
+pub mod drive;
 mod foxglove;
 mod layout;
 mod log;

@@ -144,6 +144,18 @@ pub(super) fn evidence(all: &[Met]) -> Vec<(&'static str, Evidence, &'static str
                 "0.55 at a car's corner, 0.2 along smooth concrete; wheels do not climb",
             ),
         ),
+        (
+            "sign",
+            (
+                "sign",
+                Evidence::Guess,
+                "presets are made so that a car of 900 kg at 100 km/h leaves as its category of EN 12767 allows; what breaks off strikes nothing more",
+            ),
+        ),
+        (
+            "cushion",
+            ("cushion", Evidence::Guess, "presets are made so that the cars of EN 1317-3 stop within their length"),
+        ),
         ("pole", ("pole", Evidence::Guess, "front stiffness, uniform over the width: no engine, no wheel behind it")),
     ];
     rows.into_iter().filter(|(kind, _)| all.iter().any(|own| own.kind == *kind)).map(|(_, row)| row).collect()

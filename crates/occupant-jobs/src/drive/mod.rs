@@ -3,6 +3,7 @@
 mod barriers;
 mod collisions;
 mod events;
+mod film;
 mod plan;
 mod slip;
 mod table;
@@ -18,6 +19,7 @@ use collisions::Collision;
 use events::Event;
 use slip::{slip_rad, slips_rad};
 
+pub use film::film;
 pub use plan::plan;
 pub use table::{columns, path_columns, write};
 pub use text::{json, text};

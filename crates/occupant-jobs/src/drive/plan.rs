@@ -2,7 +2,9 @@
 
 use occupant_scenario::Drives;
 use vehicle_motion::barrier::Barrier;
+use vehicle_motion::body::Side;
 use vehicle_motion::run::Station;
+use vehicle_motion::world::Profile;
 
 use super::Driven;
 use occupant_pictures::svg::{Anchor, Svg, Text};
@@ -17,7 +19,9 @@ const FOOT: f64 = 58.0;
 const MARGIN_M: f64 = 3.0;
 /// Number of equally spaced times at which vehicles are drawn, besides first contacts and the end.
 const TIMES: usize = 8;
-/// Number of lines along which zones of friction are searched.
+/// Distance of the points of a crushed outline, m.
+const PART_M: f64 = 0.05;
+/// Zones of friction are looked for along so many lines.
 const LINES: usize = 1000;
 /// Colours of the vehicles in order, repeated.
 const COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6d1f"];
@@ -57,12 +61,53 @@ impl Sheet {
     }
 }
 
-/// Corners of a vehicle's outline in plan view, starting at the left front corner.
+/// The outline of a vehicle with the residual crush of its sides, as far as it was crushed at a station.
+fn crushed(drives: &Drives, number: usize, station: &Station) -> Vec<[f64; 2]> {
+    let own = &drives.vehicles[number];
+    let most_m = drives.outcome.rides[number].last().crush_m;
+    let corners = corners(own);
+    let share = if most_m > 0.0 { station.crush_m / most_m } else { 0.0 };
+    let profiles = &drives.outcome.damage[number].profiles;
+    let edge = |i: usize| {
+        let [from, to] = [corners[i], corners[(i + 1) % corners.len()]];
+        let parts = ((to[0] - from[0]).hypot(to[1] - from[1]) / PART_M).ceil().max(1.0) as usize;
+        (0..parts).map(move |j| [0, 1].map(|k| from[k] + (to[k] - from[k]) * j as f64 / parts as f64))
+    };
+    let points = (0..corners.len()).flat_map(edge);
+    let pressed = points.map(|point| profiles.iter().fold(point, |at, profile| press(own, profile, share, at)));
+    pressed.map(|[x, y]| place(station, x, y)).collect()
+}
+
+/// Pushes a point of the outline in to the crush of a side.
+fn press(own: &occupant_scenario::DrivenVehicle, profile: &Profile, share: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    let body = &own.car.body;
+    let depth_m = |along: f64| {
+        let [from, to] = profile.span_m;
+        let place = (along - from) / (to - from).max(1e-9) * 5.0;
+        let i = (place.floor().clamp(0.0, 4.0)) as usize;
+        let between = profile.depths_m[i] + (profile.depths_m[i + 1] - profile.depths_m[i]) * (place - i as f64);
+        if (0.0..=5.0).contains(&place) { share * between } else { 0.0 }
+    };
+    let half_m = 0.5 * body.width_m;
+    match profile.side {
+        Side::Front => [x.min(body.front_m - depth_m(y)), y],
+        Side::Rear => [x.max(body.front_m - body.length_m + depth_m(y)), y],
+        Side::Right => [x, y.min(half_m - depth_m(x))],
+        Side::Left => [x, y.max(depth_m(x) - half_m)],
+    }
+}
+
+/// Corners of a vehicle's outline in plan, from its left front corner on.
 fn outline(own: &occupant_scenario::DrivenVehicle, station: &Station) -> Vec<[f64; 2]> {
+    corners(own).map(|[x, y]| place(station, x, y)).to_vec()
+}
+
+/// The same in the vehicle's axes.
+fn corners(own: &occupant_scenario::DrivenVehicle) -> [[f64; 2]; 8] {
     let body = &own.car.body;
     let (ahead, behind, half, cut) =
         (body.front_m, body.front_m - body.length_m, 0.5 * body.width_m, body.corner_m.max(0.01));
-    let corners = [
+    [
         [ahead, -half + cut],
         [ahead, half - cut],
         [ahead - cut, half],
@@ -71,8 +116,7 @@ fn outline(own: &occupant_scenario::DrivenVehicle, station: &Station) -> Vec<[f6
         [behind, -half + cut],
         [behind + cut, -half],
         [ahead - cut, -half],
-    ];
-    corners.map(|[x, y]| place(station, x, y)).to_vec()
+    ]
 }
 
 /// A point of the vehicle in plan view.
@@ -88,8 +132,7 @@ pub fn plan(drives: &Drives, all: &[Driven], title: &str) -> String {
     let mut svg = Svg::new(width + 2.0 * SIDE, height + HEAD + FOOT, title);
     svg.rect(0.0, 0.0, width + 2.0 * SIDE, height + HEAD + FOOT, "fill=\"#ffffff\"");
     svg.text([SIDE, 26.0], title, &Text { size: 17.0, ..Text::default() });
-    let words =
-        "From above: x to the right, y (to the right of the road) down. Dark bars at the fronts of the vehicles.";
+    let words = "From above: x to the right, y (to the right of the road) down. Dark bars at the fronts of the vehicles; outlines with the crush that stays.";
     svg.text([SIDE, 46.0], words, &Text { size: 12.0, fill: "#555555", ..Text::default() });
     svg.begin_clip("plan", SIDE, HEAD, width, height);
     ground(&mut svg, &sheet, drives);
@@ -207,9 +250,11 @@ fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven, label
         let opacity = 0.12 + 0.4 * time_s / end_s;
         let dash = if is_hit { " stroke-width=\"2.5\"" } else { "" };
         let style = format!("fill=\"{colour}\" fill-opacity=\"{opacity:.2}\" stroke=\"{colour}\"{dash}");
-        svg.polygon(&sheet.all(&outline(own, station)), &style);
-        let (front, half) = (own.car.body.front_m, 0.38 * own.car.body.width_m);
-        let bar = [place(station, front - 0.12, -half), place(station, front - 0.12, half)];
+        svg.polygon(&sheet.all(&crushed(drives, driven.number, station)), &style);
+        // behind what the front loses
+        let behind = own.car.body.front_m - drives.outcome.damage[driven.number].residual_m - 0.12;
+        let half = 0.38 * own.car.body.width_m;
+        let bar = [place(station, behind, -half), place(station, behind, half)];
         svg.polyline(&sheet.all(&bar), &format!("stroke=\"{colour}\" stroke-width=\"3\""));
         labels.push((sheet.at(centre), *time_s));
     }

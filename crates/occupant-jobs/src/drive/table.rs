@@ -104,22 +104,36 @@ pub fn write(
     let headings: Vec<(&str, Kind)> = columns.iter().map(|column| (column.heading.as_str(), Kind::Number)).collect();
     let about = [("vehicle", drives.vehicles[vehicle].name.clone())];
     let mut table = TableFile::create(path.to_owned(), form, Existing::by(force), &headings, &about)?;
+    for moment in moments(drives, vehicle, interval_s) {
+        table.row(columns.iter().map(|column| Cell::finite((column.value)(&moment))).collect())?;
+    }
+    table.publish()
+}
+
+/// Headings and rows of all columns, and the motion of the compartment in each row.
+pub(super) fn rows(drives: &Drives, vehicle: usize, interval_s: f64) -> (Vec<String>, Vec<Vec<f64>>, Vec<Motion>) {
+    let columns = columns();
+    let row = |moment: &Moment<'_>| columns.iter().map(|column| (column.value)(moment)).collect();
+    let (rows, motions) = moments(drives, vehicle, interval_s).map(|moment| (row(&moment), moment.motion)).unzip();
+    (columns.iter().map(|column| column.heading.clone()).collect(), rows, motions)
+}
+
+/// The moments of a drive at equal times.
+fn moments(drives: &Drives, vehicle: usize, interval_s: f64) -> impl Iterator<Item = Moment<'_>> {
     let (motion, stations) = (drives.motion(vehicle), drives.outcome.rides[vehicle].stations());
     let end_s = stations[stations.len() - 1].time_s;
     let mut cursor = PathCursor::default();
-    for i in 0..=(end_s / interval_s + 1e-6) as usize {
+    (0..=(end_s / interval_s + 1e-6) as usize).map(move |i| {
         let time_s = (i as f64 * interval_s).min(end_s);
         let next = stations.partition_point(|station| station.time_s <= time_s).clamp(1, stations.len().max(2) - 1);
         let pair = [&stations[next - 1], &stations[next.min(stations.len() - 1)]];
         let span_s = pair[1].time_s - pair[0].time_s;
-        let moment = Moment {
+        Moment {
             motion: motion.at(time_s),
             attitude: drives.path(vehicle).attitude(time_s, &mut cursor).attitude,
             stations: pair,
             share: if span_s > 0.0 { ((time_s - pair[0].time_s) / span_s).clamp(0.0, 1.0) } else { 0.0 },
             time_s,
-        };
-        table.row(columns.iter().map(|column| Cell::finite((column.value)(&moment))).collect())?;
-    }
-    table.publish()
+        }
+    })
 }

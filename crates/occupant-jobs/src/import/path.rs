@@ -31,6 +31,8 @@ pub struct PathTable {
 const BEFORE_S: f64 = 0.01;
 /// Largest sample interval for CFC 60, s.
 const FILTERED_S: f64 = 5e-4;
+/// A run of a crash is not shorter, s: an occupant needs so long to reach his greatest excursion.
+const SHORTEST_RUN_S: f64 = 0.15;
 /// A velocity change that begins later than its time zero begins with a row of 0, s.
 const BEGINS_S: f64 = 0.02;
 
@@ -71,11 +73,27 @@ pub(super) fn of(
         csv,
         words: format!("{}, {} times from {} s to {} s", motion.words, time_s.len(), number(first_s), number(last_s)),
         keys: [&keys[..1], &axes, &keys[1..]].concat(),
-        // what stands before the clock of the record is before first contact
-        run_s: [if first_s < 0.0 && last_s > 0.0 { 0.0 } else { first_s }, last_s],
+        run_s: run_s(&motion, request, notes),
         is_forward: ["x", "ax", "dvx"].iter().any(|name| motion.has(name)),
         signals: motion.signals,
     }))
+}
+
+/// First and last time of the run, s; that of a short record goes on, unless the last time of it was asked for.
+fn run_s(motion: &Motion, request: &Request, notes: &mut Vec<String>) -> [f64; 2] {
+    let (first_s, last_s) = (motion.time_s[0], motion.time_s[motion.time_s.len() - 1]);
+    // what stands before the clock of the record is before first contact
+    let begin_s = if first_s < 0.0 && last_s > 0.0 { 0.0 } else { first_s };
+    let is_whole = motion.kind == MotionKind::Places || request.window_s[1].is_some();
+    if is_whole || last_s - begin_s >= SHORTEST_RUN_S {
+        return [begin_s, last_s];
+    }
+    let end_s = begin_s + SHORTEST_RUN_S;
+    let [last_ms, end_ms] = [last_s, end_s].map(|t_s| placed_text::number((1e4 * t_s).round() / 10.0));
+    notes.push(format!(
+        "the record ends at {last_ms} ms: the vehicle coasts from there, and the run ends at {end_ms} ms"
+    ));
+    [begin_s, end_s]
 }
 
 /// A table of velocity changes that begins after its time zero has 0 there.

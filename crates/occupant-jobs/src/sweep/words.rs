@@ -26,15 +26,7 @@ pub fn tell_damaged(files: &[PathBuf]) {
 /// Reports the results.
 pub fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -> String {
     let census = &results.census;
-    let mut ended = vec![format!("{} completed", census.completed)];
-    for (count, word) in
-        [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program stopped")]
-    {
-        if count > 0 {
-            ended.push(format!("{count} {word}"));
-        }
-    }
-    let mut lines = vec![("samples", ended.join(", "))];
+    let mut lines = vec![("samples", ended(census))];
     lines.extend(census.first.iter().map(|(index, reason)| ("", format!("{index}: {reason}"))));
     if census.doubtful > 0 {
         let found = "samples with an energy balance off by more than 10 %: their results mean nothing";
@@ -50,7 +42,14 @@ pub fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -
     facts(&lines) + &ranges + &stable.unwrap_or_default()
 }
 
-/// Outcome of a study: a study without any valid figure fails, with a message.
+/// How samples ended: "29 completed, 1 failed".
+pub fn ended(census: &Census) -> String {
+    let all = [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program stopped")];
+    let rest = all.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!(", {count} {word}"));
+    format!("{} completed{}", census.completed, rest.collect::<String>())
+}
+
+/// Whether a study came to anything: one without a single figure that counts did not, which is said.
 pub fn judged(census: &Census) -> Done {
     if census.finished() == 0 || census.without_figures() < census.finished() {
         return Done::Well;

@@ -11,7 +11,7 @@ use occupant_units::trig::sin_cos;
 use placed_text::{Document, Node, Sources};
 use serde::Deserialize;
 
-/// A distance or an angle of a car.
+/// A distance or an angle of a car, or what else it is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dimension {
     /// The vehicle, none for the first.
@@ -38,6 +38,15 @@ pub enum Size {
     /// An angle, rad.
     #[serde(rename = "angle_rad")]
     Angle(f64),
+    /// A force, N.
+    #[serde(rename = "force_n")]
+    Force(f64),
+    /// A moment, N·m.
+    #[serde(rename = "moment_n_m")]
+    Moment(f64),
+    /// No size: what was chosen.
+    #[serde(rename = "is")]
+    Word(&'static str),
 }
 
 /// Dimensions of all cars of a scenario; none if their text is invalid.
@@ -51,7 +60,7 @@ pub(crate) fn dimensions(sources: &Sources, root: &Node) -> Vec<Dimension> {
     let of = |(vehicle, car)| {
         let section = CarSection::deserialize(car).ok()?;
         let riders: Vec<&Rider> = all.iter().filter(|rider| rider.vehicle.as_deref() == vehicle).collect();
-        Some(Car::of(vehicle, &section).dimensions(&riders))
+        Some(Car::of(vehicle, &section, all.len()).dimensions(&riders))
     };
     cars(&read.root).filter_map(of).flatten().collect()
 }
@@ -59,7 +68,11 @@ pub(crate) fn dimensions(sources: &Sources, root: &Node) -> Vec<Dimension> {
 impl Car<'_> {
     fn dimensions(&self, riders: &[&Rider]) -> Vec<Dimension> {
         let seats = self.seats(riders);
-        let mut all = Vec::new();
+        let chosen = |name: &str, word| self.dimension(name, "", Size::Word(word), [[0.0; 3]; 2]);
+        let mut all = vec![
+            chosen("class", self.section.class.unwrap_or_default().word()),
+            chosen("years", self.section.years.unwrap_or_default().word()),
+        ];
         if let Some(driver) = seats.iter().find(|seat| seat.name == "driver" && seat.is_taken()) {
             self.of_driver(driver.h[1], &mut all);
         }
@@ -140,6 +153,10 @@ impl Car<'_> {
             [seat.h, [bx, y, bz]],
         ));
         let belt = own.belt.unwrap_or_default();
+        let other = |key: &str, size: Size| self.dimension(&name(key), "", size, [seat.h; 2]);
+        let moment = own.back_moment.as_ref().map(|moment| Size::Moment(moment.si()));
+        all.push(other("back_moment", moment.unwrap_or(Size::Word("fixed"))));
+        all.push(other("belt", Size::Word(belt.word())));
         if belt == CarBelt::None {
             return;
         }
@@ -152,17 +169,21 @@ impl Car<'_> {
                 all.push(self.dimension(&name(&format!("{part}.{key}")), "", Size::Distance(size), [from, at]));
             }
         };
-        if belt == CarBelt::ThreePoint {
+        if belt != CarBelt::Lap {
             point("d_ring", &own.d_ring, ride::d_ring_m(stature_m, seat));
         }
         point("buckle", &own.buckle, ride::buckle_m(belt));
         point("anchor", &own.anchor, ride::ANCHOR_M);
-        let amount = |key: &str, size: f64| self.dimension(&name(key), "", Size::Distance(size), [seat.h; 2]);
+        let amount = |key: &str, size: f64| other(key, Size::Distance(size));
         all.push(amount("slack", si_or(&own.slack, 0.0)));
-        if belt == CarBelt::ThreePoint {
+        if belt != CarBelt::Lap {
+            let limiter = own.limiter.as_ref().map(|limiter| Size::Force(limiter.si()));
+            all.push(other("limiter", limiter.unwrap_or(Size::Word("none"))));
             all.push(amount("film", si_or(&own.film, ride::FILM_M)));
             all.push(amount("pretensioner", si_or(&own.pretensioner, 0.0)));
             all.push(amount("lap_above", si_or(&own.lap_above, 0.0)));
+            let clamps = own.locking_tongue == Some(true);
+            all.push(other("locking_tongue", Size::Word(if clamps { "true" } else { "false" })));
         }
     }
 }

@@ -140,7 +140,7 @@ fn words(root: &Node) -> Option<String> {
     }
     for (vehicle, car) in cars(root) {
         let section = CarSection::deserialize(car).ok()?;
-        text += &Car::of(vehicle, &section).words(&riders);
+        text += &Car::of(vehicle, &section, riders.len()).words(&riders);
     }
     Some(text)
 }
@@ -250,11 +250,17 @@ pub(super) struct Car<'a> {
     measures: Measures,
     years: Years,
     section: &'a CarSection,
+    /// How many sit in all cars together.
+    riders: usize,
 }
 
+/// Backs that yield by their years alone: with the columns of two cars there is room for no more.
+const MOST_BACKS: usize = 2;
+
 impl<'a> Car<'a> {
-    fn of(vehicle: Option<&'a str>, section: &'a CarSection) -> Self {
-        Car { vehicle, measures: Measures::of(section), years: Years::of(section.years.unwrap_or_default()), section }
+    fn of(vehicle: Option<&'a str>, section: &'a CarSection, riders: usize) -> Self {
+        let (measures, years) = (Measures::of(section), Years::of(section.years.unwrap_or_default()));
+        Car { vehicle, measures, years, section, riders }
     }
 }
 
@@ -297,9 +303,10 @@ impl Car<'_> {
         prism(&self.name(name), material, profile, across, &(frame + more))
     }
 
-    /// A seat of a row, with defaults by model year.
-    fn seat(&self, name: &str, row: usize) -> CarSeatSection {
-        self.years.fill(self.section.seats.get(name).cloned().unwrap_or_default(), row)
+    /// What is said of a seat of a row, and what its years give it.
+    fn seat(&self, name: &str, row: usize, is_taken: bool) -> CarSeatSection {
+        let yields = is_taken && self.riders <= MOST_BACKS;
+        self.years.fill(self.section.seats.get(name).cloned().unwrap_or_default(), row, yields)
     }
 }
 

@@ -16,6 +16,8 @@ const ADJUSTED_FOR_M: f64 = 1.75;
 const ADJUSTS: f64 = 0.35;
 const NOTCH_M: f64 = 0.02;
 const ADJUSTS_M: [f64; 2] = [-0.06, 0.02];
+/// The same in the back of a seat: up along it and ahead of it from the H-point, outboard; ours: above the shoulder of a tall man.
+const BACK_RING_M: [f64; 3] = [0.60, -0.13, 0.20];
 const BUCKLE_M: [f64; 3] = [0.10, -0.19, -0.12];
 pub(super) const ANCHOR_M: [f64; 3] = [0.16, 0.25, -0.22];
 /// The inner anchor of a lap belt.
@@ -102,7 +104,7 @@ impl Car<'_> {
                 list(&buckle),
                 m(si_or(&own.slack, 0.0)),
             ),
-            CarBelt::ThreePoint => {
+            CarBelt::ThreePoint | CarBelt::Seat => {
                 let side = if out < 0.0 { "left" } else { "right" };
                 let d_ring = d_ring_m(rider.stature_m, seat);
                 let mut belt = format!(
@@ -111,6 +113,9 @@ impl Car<'_> {
                     list(&buckle),
                     list(&anchor),
                 );
+                if let Some(back) = seat.back_frame().filter(|_| kind == CarBelt::Seat) {
+                    belt += &format!("d_ring_frame = \"{back}\"\n");
+                }
                 if rider.lacks.flesh {
                     belt += "lap = \"wings\"\n";
                 }
@@ -138,6 +143,11 @@ pub(super) fn buckle_m(kind: CarBelt) -> [f64; 3] {
 
 /// Position of the D-ring relative to a seat whose design position is this far ahead of it: behind, outboard, above, m.
 pub(super) fn d_ring_m(stature_m: f64, seat: &Seat) -> [f64; 3] {
+    if seat.own.belt == Some(CarBelt::Seat) {
+        let [up, ahead, outboard] = BACK_RING_M;
+        let [x, z] = seat.along([up, ahead]);
+        return [seat.h[0] - x, outboard, seat.h[2] - z];
+    }
     let [down, up] = ADJUSTS_M;
     let notches = (ADJUSTS * (stature_m - ADJUSTED_FOR_M) / NOTCH_M).round();
     let ([behind, outboard, above], adjusted) = match seat.row {

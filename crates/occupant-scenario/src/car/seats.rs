@@ -1,5 +1,6 @@
 //! Seats of a car: cushion, pan, back, frame and head restraint.
 
+use super::years::HARDENS;
 use super::{Car, Rider, SEATS, classes, frame_line, list, m, prism};
 use crate::sections::{CarClass, CarSeatSection, si_or};
 
@@ -48,7 +49,7 @@ impl Car<'_> {
 
     /// The seat of this name.
     pub(super) fn placed(&self, name: &'static str, row: usize, side: f64, rider: Option<&Rider>) -> Seat {
-        let own = self.seat(name, row);
+        let own = self.seat(name, row, rider.is_some());
         let by_stature = |rider: &Rider| classes::TRACK_PER_STATURE * (rider.stature_m - classes::MEAN_STATURE_M);
         let usual = rider.filter(|_| name == "driver").map_or(0.0, by_stature);
         let m = &self.measures;
@@ -134,8 +135,8 @@ impl Seat {
         format!("group = \"{prefix}row_{}_{part}\"\n", self.row + 1)
     }
 
-    /// Frame of the back: the vehicle, none for the first, or its hinge.
-    fn back_frame(&self) -> Option<String> {
+    /// What the back is fixed to: the vehicle, none for the first, or its hinge.
+    pub(super) fn back_frame(&self) -> Option<String> {
         if self.own.back_moment.is_some() { Some(format!("{}_recliner", self.id)) } else { self.vehicle.clone() }
     }
 
@@ -160,8 +161,8 @@ impl Seat {
             self.id,
             list(&[x, y, z]),
             list(&[cx, y, cz]),
-            1.17 * moment,
-            1.17 * moment + 7000.0,
+            HARDENS * moment,
+            HARDENS * moment + 7000.0,
         )
     }
 

@@ -196,7 +196,7 @@ impl Car<'_> {
     fn rim(&self) -> ([f64; 3], [f64; 3]) {
         let [ahead, above] = self.measures.wheel;
         let (sin, cos) = sin_cos(self.measures.wheel_angle_deg.to_radians());
-        let y = si_or(&self.seat("driver", 0).y, self.drivers_side() * self.measures.seat_offset);
+        let y = si_or(&self.seat("driver", 0, false).y, self.drivers_side() * self.measures.seat_offset);
         ([ahead, y, -above], [cos, 0.0, sin])
     }
 

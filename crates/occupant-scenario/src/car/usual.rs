@@ -67,7 +67,7 @@ pub(crate) fn usual(sources: &Sources, root: &Node, path: &str) -> Option<Usual>
     };
     let all = dimensions(sources, root);
     let found = all.iter().find(|dimension: &&Dimension| dimension.vehicle.is_none() && dimension.name == own)?;
-    let (Size::Distance(mean) | Size::Angle(mean)) = found.size;
+    let (Size::Distance(mean) | Size::Angle(mean)) = found.size else { return None };
     Some(Usual::Normal { mean_sd: [mean, sd], ends: [mean - most, mean + most] })
 }
 

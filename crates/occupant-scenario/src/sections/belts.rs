@@ -64,6 +64,9 @@ pub(crate) struct BeltSection {
     pub(crate) side: Option<Side>,
     /// Upper anchor or D-ring of a preset, vehicle axes. It and the next two follow from the seat if absent.
     pub(crate) d_ring: Option<[Length; 3]>,
+    /// Of a preset: name of the frame that carries the upper anchor and the retractor, such as the hinge of a seat back; the vehicle
+    /// if absent.
+    pub(crate) d_ring_frame: Option<String>,
     /// Buckle of a preset, vehicle axes.
     pub(crate) buckle: Option<[Length; 3]>,
     /// Outer lap anchor of a preset, vehicle axes.

@@ -30,7 +30,21 @@ pub(crate) enum CarClass {
     Sled,
 }
 
-/// Model years, which give default belts, bags and head restraints.
+impl CarClass {
+    /// As it is written.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            CarClass::Small => "small",
+            CarClass::Sedan => "sedan",
+            CarClass::Suv => "suv",
+            CarClass::Van => "van",
+            CarClass::Pickup => "pickup",
+            CarClass::Sled => "sled",
+        }
+    }
+}
+
+/// When a car was built: what of belts, bags and head restraints it has by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) enum CarYears {
     /// Up to about 1985: belts without limiter and pretensioner, no air bags.
@@ -46,6 +60,18 @@ pub(crate) enum CarYears {
     #[default]
     #[serde(rename = "present")]
     Present,
+}
+
+impl CarYears {
+    /// As they are written.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            CarYears::Seventies => "1970s",
+            CarYears::Nineties => "1990s",
+            CarYears::TwoThousands => "2000s",
+            CarYears::Present => "present",
+        }
+    }
 }
 
 /// The interior of a car: seats, belts, air bags, steering wheel, panel and body shell of a class, with your own measurements. It is
@@ -206,10 +232,25 @@ pub(crate) enum CarBelt {
     /// A lap and shoulder belt on a retractor.
     #[default]
     ThreePoint,
+    /// The same with retractor and D-ring in the seat's back, which leans, slides and yields with them; buckle and lap anchor stand on
+    /// the seat's base.
+    Seat,
     /// A lap belt.
     Lap,
     /// No belt, or a belt that is not worn.
     None,
+}
+
+impl CarBelt {
+    /// As it is written.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            CarBelt::ThreePoint => "three_point",
+            CarBelt::Seat => "seat",
+            CarBelt::Lap => "lap",
+            CarBelt::None => "none",
+        }
+    }
 }
 
 /// A seat of a car.
@@ -224,7 +265,8 @@ pub(crate) struct CarSeatSection {
     pub(crate) recline: Option<Angle<NOT_NEGATIVE>>,
     /// Lateral position of its centre; by class if absent.
     pub(crate) y: Option<Length>,
-    /// Moment at which its recliner yields, such as 1.5 kN·m. If absent, the back is fixed.
+    /// Moment at which its recliner yields, such as 1.5 kN·m. If absent, that of its years under who sits in front, before the present
+    /// and with two people at most; 3.75 kN·m with `belt = "seat"`; else the back is fixed.
     pub(crate) back_moment: Option<Moment<POSITIVE>>,
     /// Factor on the stiffness of its foam; 1 if absent.
     pub(crate) foam: Option<Ratio<POSITIVE>>,

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::functions::{function, listed, points};
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
-use super::{Force, Length, Ratio, Scenario, Speed, Stiffness};
-use occupant_core::forces::contact::material::{Material, Memory};
+use super::{Energy, Force, Length, Ratio, Scenario, Speed, Stiffness};
+use occupant_core::forces::contact::material::{Breaking, Force as Law, Limit, Material, Memory};
 use occupant_core::forces::function::{Beyond, ForceDeflection, Function, Shape, Unloading};
 use occupant_core::forces::spring::BilinearSpring;
 use placed_text::with_key;
@@ -80,6 +80,24 @@ pub(crate) struct MaterialSection {
     pub(crate) friction_over_force: Option<LoadSection>,
     /// Whether crush is stored after contact has ended; "reset" if absent.
     pub(crate) memory: Option<Memory>,
+    /// A pane: each surface or solid of this material, or each group of solids, breaks as a whole.
+    pub(crate) breaks: Option<BreaksSection>,
+}
+
+/// When a pane breaks, and what is left of it. One segment of a body breaks it, with all its spheres together; from then on it is
+/// broken for all. Depth and crush are those of each sphere, before and after.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-exactly-one" = [["force", "energy"]], "x-together" = [["depth", "left"]]))]
+pub(crate) struct BreaksSection {
+    /// Normal force under which it breaks.
+    pub(crate) force: Option<Force<POSITIVE>>,
+    /// Work of pressing it in by which it breaks: the area below force over depth, without `rate` and `viscous`.
+    pub(crate) energy: Option<Energy<POSITIVE>>,
+    /// Depths, from 0, of the law of what is left; it unloads as the material does. Nothing is left if absent.
+    pub(crate) depth: Option<Vec<Length<NOT_NEGATIVE>>>,
+    /// Force at each depth.
+    pub(crate) left: Option<Vec<Force<NOT_NEGATIVE>>>,
 }
 
 /// The quadratic unloading of the ATB program. The returned fraction is limited by the curve; the program reports the
@@ -202,8 +220,28 @@ fn material(b: &mut Builder, name: &str, s: &MaterialSection) -> Material {
         friction_factors: [over_slip, over_force].map(Option::unwrap_or_default),
         friction_speed_m_s: si_or(&s.friction_speed, plain.friction_speed_m_s),
         memory: s.memory.unwrap_or(plain.memory),
+        breaks: s.breaks.as_ref().map(|breaks| breaking(b, &with_key(&path, "breaks"), breaks, &plain.force)),
         ..plain
     }
+}
+
+/// What is left unloads as the `whole` does.
+fn breaking(b: &mut Builder, path: &str, s: &BreaksSection, whole: &Law) -> Breaking {
+    let force = s.force.as_ref().map(|force| Limit::Force(force.si()));
+    let limit = force.unwrap_or_else(|| Limit::Energy(b.needed(path, "energy", &s.energy)));
+    let curve = points(b, path, ["depth", "left"], listed(&s.depth), listed(&s.left));
+    let left = || match whole {
+        Law::Bilinear(spring) => ForceDeflection::lines(curve, spring.returned_1),
+        Law::Deflection(whole) => {
+            let returned = whole.loading.returned.last().copied().unwrap_or(1.0);
+            let unloading = match &whole.unloading {
+                Unloading::Slope { n_per_m, .. } => Unloading::Slope { n_per_m: *n_per_m, least: Vec::new() },
+                other => other.clone(),
+            };
+            ForceDeflection { unloading, ..ForceDeflection::lines(curve, returned) }
+        }
+    };
+    Breaking { limit, left: s.left.is_some().then(|| left().into()) }
 }
 
 fn deflection(b: &mut Builder, path: &str, s: &MaterialSection) -> ForceDeflection {

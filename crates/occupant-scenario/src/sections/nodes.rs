@@ -13,6 +13,7 @@ use super::retractors::{StrokeSection, direction};
 use super::wings;
 use super::{Force, Length, Ratio, Speed};
 use occupant_core::forces::chain::{NEVER, Next, Node, Site, Track};
+use occupant_core::forces::contact::surface::Frame;
 
 /// Sliding speed of webbing across a track per kN beyond friction, m/s: a drag of 100 N·s/m.
 const SLIDE_M_S: f64 = 10.0;
@@ -25,10 +26,13 @@ const SLIDE_M_S: f64 = 10.0;
 pub(crate) struct NodeSection {
     /// Its name; that of the sphere, or its number, if absent.
     pub(crate) name: Option<String>,
-    /// Position [x, y, z] in vehicle axes; with `on`, in segment axes from the segment's lower end.
+    /// Position [x, y, z] in vehicle axes, or in those of `frame`; with `on`, in segment axes from the segment's lower end.
     pub(crate) at: Option<[Length; 3]>,
     /// Name of the segment that it is fixed to.
     pub(crate) on: Option<String>,
+    /// Of a point of the vehicle: name of the frame that carries it, such as the hinge of a seat back, which the webbing then turns;
+    /// the vehicle if absent.
+    pub(crate) frame: Option<String>,
     /// Name of the sphere that the webbing wraps.
     pub(crate) sphere: Option<String>,
     /// Inner end, crown and outer end of an arc across which the webbing slides, in segment axes from the segment's
@@ -98,6 +102,7 @@ impl NodeSection {
             name: None,
             at: None,
             on: None,
+            frame: None,
             sphere: None,
             track: None,
             wing: None,
@@ -125,7 +130,22 @@ impl Parts<'_> {
         if s.wing.is_some() && ride.is_empty() {
             ride = wings::flesh(self.body);
         }
-        Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER), ride }
+        let frame = self.carrier(b, path, s);
+        Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER), ride, frame }
+    }
+
+    /// What carries a point of the vehicle: a frame on it.
+    fn carrier(&self, b: &mut Builder, path: &str, s: &NodeSection) -> Option<Frame> {
+        let (name, at) = (s.frame.as_deref()?, format!("{path}.frame"));
+        if s.on.is_some() || s.at.is_none() {
+            b.error(&at, "`frame` in a node of the body", "`frame` in a node with `at` and without `on`");
+            return None;
+        }
+        let frame = b.frame(self.scenario, &at, Some(name));
+        if self.scenario.vehicle_of(frame).is_none() {
+            b.error(&at, format!("`{name}`, which is no part of a vehicle"), "a vehicle, or a frame on one");
+        }
+        (frame != Frame::Vehicle).then_some(frame)
     }
 
     fn site(&self, b: &mut Builder, path: &str, s: &NodeSection) -> Site {

@@ -106,6 +106,7 @@ pub(super) fn nodes(
     if section.retractor.is_none() {
         nodes = vec![placed("upper_anchor", said(&section.d_ring, ring_m))];
     }
+    nodes.iter_mut().for_each(|node| node.frame.clone_from(&section.d_ring_frame));
     let tongue = if section.locking_tongue == Some(true) { CLAMPS } else { tongue };
     let buckle =
         NodeSection { pretensioner: section.pretensioner.clone(), ..placed("buckle", said(&section.buckle, BUCKLE_M)) };

@@ -6,13 +6,16 @@ use super::{build, complaint, load};
 use crate::{Draft, Format, Size, Usual};
 use occupant_core::diagnosis::{OnShoulder, Way, diagnose};
 use occupant_core::forces::chain::Site;
+use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::setup::Setup;
 
 /// The distance or angle of a name, m or rad.
 fn size(text: &str, name: &str) -> f64 {
     let all = load(text).unwrap_or_else(|said| panic!("{said}")).dimensions();
     let found = all.iter().find(|own| own.name == name).unwrap_or_else(|| panic!("no {name} among {all:?}"));
-    let (Size::Distance(size) | Size::Angle(size)) = found.size;
+    let (Size::Distance(size) | Size::Angle(size) | Size::Force(size) | Size::Moment(size)) = found.size else {
+        panic!("{found:?}")
+    };
     size
 }
 
@@ -118,6 +121,61 @@ fn years_leave_out_what_cars_did_not_have() {
     );
     assert!(own.bags.len() == 1 && pulls(&own) && (force(&own) - 5000.0).abs() < 1e-6);
     assert_eq!(format!("{:?}", of_years("")), format!("{today:?}"));
+}
+
+/// Of the table of `check`: what is no distance.
+fn word(text: &str, name: &str) -> &'static str {
+    let all = load(text).unwrap_or_else(|said| panic!("{said}")).dimensions();
+    let found = all.iter().find(|own| own.name == name).unwrap_or_else(|| panic!("no {name} among {all:?}"));
+    let Size::Word(word) = found.size else { panic!("{found:?}") };
+    word
+}
+
+#[test]
+fn backs_yield_by_their_years_where_somebody_sits() {
+    let moments = |years: &str| {
+        let setup = build(&of(years));
+        setup
+            .columns
+            .iter()
+            .filter(|column| column.hinge.is_some())
+            .map(|column| column.force.points[1][1])
+            .collect::<Vec<_>>()
+    };
+    for (years, expected) in [("1970s", 850.0), ("1990s", 1100.0), ("2000s", 1700.0)] {
+        let car = format!("years = \"{years}\"\n");
+        assert_eq!(moments(&car), [expected]);
+        assert_eq!(moments(&(car + "[car.seats.driver]\nback_moment = \"2 kN m\"\n")), [2000.0]);
+    }
+    assert!(moments("").is_empty());
+    let old =
+        of("years = \"1970s\"\n[car.seats.driver]\nlocking_tongue = true\nlap_above = \"1 cm\"\nslack = \"2 cm\"\n");
+    assert_eq!(word(&old, "years"), "1970s");
+    assert_eq!([word(&old, "seats.driver.locking_tongue"), word(&old, "seats.driver.limiter")], ["true", "none"]);
+    let named = ["lap_above", "slack", "film", "back_moment"].map(|key| size(&old, &format!("seats.driver.{key}")));
+    assert_eq!(named, [0.01, 0.02, 0.03, 850.0]);
+    assert_eq!([word(&of(""), "years"), word(&of(""), "seats.driver.back_moment")], ["present", "fixed"]);
+}
+
+#[test]
+fn a_belt_on_a_seat_leans_and_slides_with_its_back() {
+    let ring = |seat: &str| {
+        let setup = build(&of(&format!("[car.seats.driver]\nbelt = \"seat\"\n{seat}\n")));
+        let node = setup.chains[0].nodes.iter().find(|node| node.name == "d_ring").unwrap().clone();
+        let Site::Vehicle(place, _) = node.site else { panic!("{node:?}") };
+        let (hinge, reel) = (setup.columns.last().unwrap(), &setup.chains[0].nodes[0]);
+        assert!(node.frame == Some(Frame::Other(hinge.frame)) && reel.frame == node.frame);
+        assert!(setup.chains[0].nodes.iter().filter(|node| node.frame.is_some()).count() == 2);
+        (place, hinge.force.points[1][1])
+    };
+    let (usual, moment) = ring("");
+    assert_eq!(moment, 3750.0);
+    let (leant, weak) = ring("recline = 40\nback_moment = \"1 kN m\"");
+    assert!(weak == 1000.0 && leant.x < usual.x - 0.15 && leant.z > usual.z + 0.05, "{usual} {leant}");
+    let (slid, _) = ring("track = \"10 cm\"");
+    let (still, _) = ring("track = \"0 cm\"");
+    assert!((still.x - slid.x - 0.1).abs() < 1e-9 && still.z == slid.z);
+    assert_eq!(word(&of("[car.seats.driver]\nbelt = \"seat\"\n"), "seats.driver.belt"), "seat");
 }
 
 #[test]

@@ -180,6 +180,63 @@ fn who_sits_within_the_crush_is_refused() {
     assert!(!told(&wall()).contains("the crush of car"), "{}", told(&wall()));
 }
 
+/// Presets of signs and cushions keep to what their classes ask: they are made so, and are no evidence of a product.
+#[test]
+fn presets_keep_to_their_classes() {
+    let drives = |car: &str, kmh: f64, keys: &str| {
+        let text = replaced(&wall(), "kind = \"wall\"\nat = [\"2.5 m\", 0]\n", &format!("at = [3, 0]\n{keys}\n"));
+        let text = replaced(&text, "end = \"0.3 s\"", "end = \"1.5 s\"");
+        let text = replaced(&text, "speed = \"15 m/s\"", &format!("speed = \"{kmh} km/h\""));
+        driven(&replaced(&text, "preset = \"sedan\"", &format!("preset = \"{car}\"")))
+    };
+    // EN 12767: what leaves at 70 to 100, 50 to 70, at most 50 km/h; measured 91, 61 and 42 km/h
+    for (category, range) in [("ne", 70.0..100.0), ("le", 50.0..70.0), ("he", 0.0..50.0)] {
+        let drives = drives("en900", 100.0, &format!("kind = \"sign\"\npreset = \"en12767-{category}\""));
+        let leaves = drives.outcome.contacts[0].struck[0].unwrap().leaves_m_s.norm() * 3.6;
+        assert!(range.contains(&leaves), "{category}: {leaves}");
+        assert!(drives.outcome.slides[0].most_m > 0.5, "{category}");
+    }
+    // EN 1317-3: light and heavy cars stop within the stroke, and push back little
+    for (kmh, stroke_m) in [(80.0, 4.0), (100.0, 6.0)] {
+        for car in ["en900", "en900\"\nmass = \"1300 kg"] {
+            let drives = drives(car, kmh, &format!("kind = \"cushion\"\npreset = \"en1317-3-{kmh}\""));
+            let (slid, last) = (&drives.outcome.slides[0], drives.outcome.rides[0].last());
+            assert!((0.4..0.95).contains(&(slid.most_m / stroke_m)), "{car} {kmh}: {slid:?}");
+            assert!(last.velocity_m_s.norm() < 4.0, "{car} {kmh}: {:?}", last.velocity_m_s);
+        }
+    }
+}
+
+/// Cars that lean on each other after a crash do not collide again, and a contact ends with its force.
+#[test]
+fn a_contact_ends_with_its_force() {
+    let outcome = &driven(&wall()).outcome;
+    assert_eq!(outcome.contacts.len(), 1);
+    let contact = &outcome.contacts[0];
+    // loaded for a quarter of a period, π/2 · 1.2/27.7 s, and unloaded eight times as fast
+    let lasts_s = contact.until_s - contact.from_s;
+    assert!((0.06..0.1).contains(&lasts_s), "{lasts_s}");
+}
+
+#[test]
+fn warnings_say_what_is_beyond_the_model() {
+    let barrier = "kind = \"wall\"\nat = [\"2.5 m\", 0]\n";
+    let cases = [
+        ("speed = \"15 m/s\"", "speed = \"40 m/s\"", "the distance to its front axle"),
+        ("speed = \"15 m/s\"", "speed = \"80 m/s\"", "more than half of it"),
+        (barrier, "kind = \"rail\"\nline = [[-5, 1.5], [4, 1]]\n", "beyond an end of this rail"),
+    ];
+    for (old, new, expected) in cases {
+        let found = match load(&replaced(&wall(), old, new)).and_then(|loaded| loaded.drives()) {
+            Ok((_, warnings)) => warnings.to_string(),
+            Err(problems) => format!("an error: {problems}"),
+        };
+        assert!(found.contains(expected) && found.contains("warning") && found.contains("s.toml:"), "{new}: {found}");
+    }
+    let quiet = replaced(&wall(), barrier, "kind = \"rail\"\nline = [[-20, 2], [60, -4]]\n");
+    assert!(!told(&quiet).contains("beyond an end"), "{}", told(&quiet));
+}
+
 #[test]
 fn mistakes_are_told_with_their_places() {
     let at = "at = [\"2.5 m\", 0]";
@@ -203,6 +260,24 @@ fn mistakes_are_told_with_their_places() {
         (barrier, &rows[0], "stroke 3 is 1 m, after 1 m"),
         (barrier, &rows[1], "a first stroke of 0.1 m"),
         (barrier, &rows[2], "2 strokes and 1 forces"),
+        (barrier, "kind = \"sign\"\nat = [3, 0]\n", "no `diameter`, and no preset"),
+        (
+            barrier,
+            "kind = \"sign\"\nat = [3, 0]\npreset = \"en12767-ne\"\nstroke = [0, 1]\n",
+            "`stroke` without `force`",
+        ),
+        (
+            barrier,
+            "kind = \"cushion\"\nat = [3, 0]\nwidth = 1\nlength = 3\nmass = 50\n",
+            "neither `stroke` and `force`",
+        ),
+        (barrier, "kind = \"cushion\"\nat = [3, 0]\npreset = \"tl-3\"\n", "en1317-3-80"),
+        ("preset = \"sedan\"", "preset = \"sedan\"\ninertia = [100, 200, 2640]", "none above the sum of the others"),
+        (
+            "preset = \"sedan\"",
+            "preset = \"sedan\"\nsuspension = { front = { wheel_mass = 700 } }",
+            "the wheels have all of the vehicle's mass",
+        ),
         ("preset = \"sedan\"", "preset = \"sedan\"\ncrush = { front = { A = 0, B = 1 } }", "out of range"),
         (
             "preset = \"sedan\"",

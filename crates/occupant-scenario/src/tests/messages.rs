@@ -245,7 +245,7 @@ fn problems_of_the_model_point_into_the_text() {
 
 #[test]
 fn names_and_numbers_of_several_bodies_are_looked_at_where_they_stand() {
-    let abreast = include_str!("../../scenarios/side-by-side.toml");
+    let abreast = include_str!("../../testdata/hand/side-by-side.toml");
     let ball = "[loose.ball]\nmass = 2\ninertia = [0.1, 0.01, 0.01]\nat = [9, 0, 0]\n";
     let refused = |text: &str| load(text).unwrap().model().err().unwrap().to_string();
     for name in ["a.b", "../x", "Driver", "fährer"] {

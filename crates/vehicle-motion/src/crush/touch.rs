@@ -7,6 +7,7 @@
 use crate::V3;
 use crate::crush::law::Series;
 use crate::crush::outline::{Node, Outline};
+use core::ops::Range;
 use nalgebra::Matrix3;
 
 /// Distance along the face, and height, within which a node of a narrow body marks nodes of the other, m; sides have
@@ -55,6 +56,43 @@ pub(crate) struct Push {
 pub(crate) struct Shape {
     pub outline: Outline,
     pub nodes: Vec<Node>,
+    /// Runs of nodes, so that those far away are passed over together.
+    runs: Vec<Run>,
+}
+
+/// Nodes next to each other, and a sphere that holds them.
+#[derive(Clone, Debug, PartialEq)]
+struct Run {
+    nodes: Range<usize>,
+    centre_m: V3,
+    radius_m: f64,
+}
+
+/// Nodes of a run.
+const RUN: usize = 8;
+
+impl Shape {
+    /// An outline with its nodes, neighbours next to each other.
+    pub fn new(outline: Outline, nodes: Vec<Node>) -> Self {
+        let run = |(i, own): (usize, &[Node])| {
+            let centre_m = own.iter().map(|node| node.place_m).sum::<V3>() / own.len() as f64;
+            let radius_m = own.iter().map(|node| (node.place_m - centre_m).norm()).fold(0.0, f64::max);
+            Run { nodes: i * RUN..i * RUN + own.len(), centre_m, radius_m }
+        };
+        let runs = nodes.chunks(RUN).enumerate().map(run).collect();
+        Shape { outline, nodes, runs }
+    }
+
+    /// The nodes, with their numbers, of all runs that may reach into an outline.
+    fn nodes_within<'a>(
+        &'a self,
+        view: &'a View,
+        outline: &'a Outline,
+    ) -> impl Iterator<Item = (usize, &'a Node)> + 'a {
+        let is_near = move |run: &&Run| outline.gap_m(&view.place(&run.centre_m)) < run.radius_m + 1e-9;
+        let near = self.runs.iter().filter(is_near);
+        near.flat_map(|run| run.nodes.clone().map(|i| (i, &self.nodes[i])))
+    }
 }
 
 /// Nodes of one body against the outline of another.
@@ -109,8 +147,8 @@ impl View {
         View { turn: back * nodes.axes, shift: back * (nodes.at_m - outline.at_m) }
     }
 
-    fn place(&self, node: &Node) -> V3 {
-        self.turn * node.place_m + self.shift
+    fn place(&self, place_m: &V3) -> V3 {
+        self.turn * place_m + self.shift
     }
 }
 
@@ -127,11 +165,7 @@ impl Pass {
     }
 
     fn met(&self, node: &Node, face: u8, outline: &Outline, now: &View, before: &View) -> Option<Met> {
-        let at_m = now.place(node);
-        if !outline.holds(&at_m) {
-            return None;
-        }
-        let face = if face == NO_FACE { outline.entered(&before.place(node), &at_m) } else { usize::from(face) };
+        let (at_m, face) = inside(node, face, outline, now, before)?;
         let [x, y] = outline.faces[face].normal;
         let normal = V3::new(x, y, 0.0);
         let depth_m = outline.depth_m(face, &at_m);
@@ -157,7 +191,7 @@ impl Pass {
         let turns = back * (poses[a].turning_rad_s - poses[b].turning_rad_s);
         let (mut force, mut about_b, mut size) = (V3::zeros(), V3::zeros(), 0.0);
         let (mut crushing, mut first_w, mut rubbing) = (0.0, 0.0, 0.0);
-        for (i, node) in shapes[a].nodes.iter().enumerate() {
+        for (i, node) in shapes[a].nodes_within(&now, outline) {
             let Some(met) = self.met(node, marks.faces[i], outline, &now, &past) else { continue };
             let pressure = self.series(node, outline, &met).pressure(met.depth_m, marks.most[i]);
             let normal_n = self.weight * pressure.force_n_per_m * node.width_m * met.facing;
@@ -195,9 +229,11 @@ impl Pass {
         let [a, b] = [self.nodes_of, self.outline_of];
         let outline = &shapes[b].outline;
         let (now, past) = (View::of(&poses[a], &poses[b]), View::of(&before[a], &before[b]));
-        for (i, node) in shapes[a].nodes.iter().enumerate() {
+        for (i, node) in shapes[a].nodes_within(&now, outline) {
+            let Some((_, face)) = inside(node, faces[i], outline, &now, &past) else { continue };
+            // also what does not face it yet: it may turn to it later
+            faces[i] = face as u8;
             let Some(met) = self.met(node, faces[i], outline, &now, &past) else { continue };
-            faces[i] = met.face as u8;
             if met.facing > SQUARE {
                 most[i] = most[i].max(self.series(node, outline, &met).load(met.depth_m));
             }
@@ -208,9 +244,17 @@ impl Pass {
     pub fn nearest(&self, shapes: &[Shape], poses: &[Pose]) -> Option<(f64, V3)> {
         let [a, b] = [self.nodes_of, self.outline_of];
         let (outline, now) = (&shapes[b].outline, View::of(&poses[a], &poses[b]));
-        let nodes = shapes[a].nodes.iter().map(|node| now.place(node));
-        let level = nodes.filter(|at| outline.band_m[0] <= at.z && at.z <= outline.band_m[1]);
-        let nearest = level.map(|at| (outline.gap_m(&at), at)).min_by(|x, y| x.0.total_cmp(&y.0));
+        let mut nearest: Option<(f64, V3)> = None;
+        for run in &shapes[a].runs {
+            let least_m = nearest.map_or(f64::INFINITY, |(gap_m, _)| gap_m);
+            if outline.gap_m(&now.place(&run.centre_m)) - run.radius_m > least_m {
+                continue;
+            }
+            let nodes = shapes[a].nodes[run.nodes.clone()].iter().map(|node| now.place(&node.place_m));
+            let level = nodes.filter(|at| outline.band_m[0] <= at.z && at.z <= outline.band_m[1]);
+            let own = level.map(|at| (outline.gap_m(&at), at)).min_by(|x, y| x.0.total_cmp(&y.0));
+            nearest = own.filter(|(gap_m, _)| *gap_m < least_m).or(nearest);
+        }
         nearest.map(|(gap_m, at)| (gap_m, poses[b].at_m + poses[b].axes * at))
     }
 
@@ -223,7 +267,7 @@ impl Pass {
     pub fn mark(&self, marks: &Marks, on: &mut [f64], shapes: &[Shape], poses: &[Pose]) {
         let [a, b] = [self.nodes_of, self.outline_of];
         let (outline, now) = (&shapes[b].outline, View::of(&poses[a], &poses[b]));
-        for (i, node) in shapes[a].nodes.iter().enumerate() {
+        for (i, node) in shapes[a].nodes_within(&now, outline) {
             let Some(met) = self.met(node, marks.faces[i], outline, &now, &now) else { continue };
             let is_end = outline.faces[met.face].normal[0] != 0.0;
             for (own, most) in shapes[b].nodes.iter().zip(on.iter_mut()).filter(|(own, _)| own.face == met.face) {
@@ -235,6 +279,16 @@ impl Pass {
             }
         }
     }
+}
+
+/// Where a node is within an outline, in its axes, and through which face it came in.
+fn inside(node: &Node, face: u8, outline: &Outline, now: &View, before: &View) -> Option<(V3, usize)> {
+    let at_m = now.place(&node.place_m);
+    if !outline.holds(&at_m) {
+        return None;
+    }
+    let entered = || outline.entered(&before.place(&node.place_m), &at_m);
+    Some((at_m, if face == NO_FACE { entered() } else { usize::from(face) }))
 }
 
 fn add(push: &mut Push, force_n: V3, moment_n_m: V3, crushing_w: f64, rubbing_w: f64) {

@@ -5,6 +5,10 @@ use crate::ride::Station;
 
 /// Time without force after which a contact ends, s.
 pub(crate) const ENDS_AFTER_S: f64 = 0.025;
+/// A force below this share of the contact's largest no longer prolongs it: cars that lean on each other.
+pub(crate) const FADES: f64 = 0.01;
+/// A smaller force is no contact, N.
+pub(crate) const LEAST_N: f64 = 1.0;
 
 /// Partner of a vehicle in a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +28,7 @@ pub struct Contact {
     pub partner: Partner,
     /// First touch, s.
     pub from_s: f64,
-    /// Last force, s.
+    /// Last force above a hundredth of the largest, s.
     pub until_s: f64,
     /// Impulse on the vehicle, vehicle-space, N·s.
     pub impulse_n_s: V3,

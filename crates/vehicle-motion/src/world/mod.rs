@@ -153,6 +153,17 @@ pub struct Bent {
     pub released: usize,
     /// Its line at the end, X and Y, m.
     pub line_m: Vec<[f64; 2]>,
+    /// Its lines while it moved, at most one every 5 ms.
+    pub moving: Vec<Bend>,
+}
+
+/// A rail at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bend {
+    /// When, s.
+    pub time_s: f64,
+    /// Its line, X and Y, m.
+    pub line_m: Vec<[f64; 2]>,
 }
 
 /// Reason why a simulation failed.

@@ -8,10 +8,25 @@ use crate::world::contact::Struck;
 use crate::world::damage::Damage;
 use crate::world::run::Runner;
 use crate::world::setup::{Pair, Rails};
-use crate::world::{Bent, Outcome, Partner, Slid};
+use crate::world::{Bend, Bent, Outcome, Partner, Slid};
+
+/// Lines of rails are kept this far apart, s, while a part of one moves faster than this, m/s.
+const BENDS_S: f64 = 0.005;
+const MOVES_M_S: f64 = 0.01;
 
 impl Runner<'_> {
+    fn note_rails(&mut self) {
+        for (rail, bends) in self.setup.rails.iter().zip(&mut self.bends) {
+            let y = &self.stack.more[rail.at.clone()];
+            let is_due = bends.last().is_none_or(|last| self.time_s >= last.time_s + BENDS_S);
+            if is_due && (bends.is_empty() || y.chunks(2).any(|own| own[1].abs() > MOVES_M_S)) {
+                bends.push(Bend { time_s: self.time_s, line_m: rail.beam.line_m(y) });
+            }
+        }
+    }
+
     pub fn note(&mut self) {
+        self.note_rails();
         for (i, vehicle) in self.setup.vehicles.iter().enumerate() {
             let (state, report) = (&self.stack.cars[i], &self.found.reports[i]);
             let steer = vehicle.controls(self.time_s, state, &self.memories.vehicles[i]).steer_rad;
@@ -44,7 +59,7 @@ impl Runner<'_> {
     }
 
     pub fn outcome(self, balance: f64) -> Outcome {
-        let Runner { setup, mut contacts, rides, evaluations, rejected, memories, stack, .. } = self;
+        let Runner { setup, mut contacts, rides, bends, evaluations, rejected, memories, stack, .. } = self;
         let damage = |i: usize| {
             let (shape, taken_j) = (&setup.shapes[i], stack.cars[i].work().crush_j);
             let mass_kg = setup.vehicles[i].mass_kg;
@@ -63,14 +78,15 @@ impl Runner<'_> {
         contacts.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
         let ride = |stations| Ride { stations, evaluations, rejected, balance };
         let rides = rides.into_iter().map(ride).collect();
-        let bent = |(rail, memory): (&Rails, &BeamMemory)| Bent {
+        let bent = |((rail, memory), moving): ((&Rails, &BeamMemory), Vec<Bend>)| Bent {
             barrier: rail.barrier,
             deflection_m: memory.most_m,
             tension_n: memory.most_n,
             released: memory.released(),
             line_m: rail.beam.line_m(&stack.more[rail.at.clone()]),
+            moving,
         };
-        let rails = setup.rails.iter().zip(&memories.rails).map(bent).collect();
+        let rails = setup.rails.iter().zip(&memories.rails).zip(bends).map(bent).collect();
         let slid = |(i, memory): (usize, &SlideMemory)| Slid {
             most_m: memory.most_m,
             direction_rad: memory.direction_rad.unwrap_or(0.0),

@@ -7,11 +7,11 @@ use crate::integrate::{Pair as Method, Stack, next_step};
 use crate::ride::Station;
 use crate::state::{NUMBERS, State};
 use crate::vehicle::Memory;
-use crate::world::contact::{Contact, ENDS_AFTER_S};
+use crate::world::contact::{Contact, ENDS_AFTER_S, FADES, LEAST_N};
 use crate::world::evaluate::{Findings, NEAR_M};
 use crate::world::pulse::Pulse;
 use crate::world::setup::{Memories, Pair, Setup};
-use crate::world::{Outcome, Partner, World, WorldError, Wrench};
+use crate::world::{Bend, Outcome, Partner, World, WorldError, Wrench};
 
 /// Shortest step, s; smaller ones fail.
 const SHORTEST_S: f64 = 1e-9;
@@ -19,8 +19,9 @@ const SHORTEST_S: f64 = 1e-9;
 const TOUCH_M: f64 = 1e-4;
 /// Travel per step near curbs, m.
 const CURB_M: f64 = 0.02;
-/// Longest step within the gap `NEAR_M`, s.
+/// Longest step within the gap `NEAR_M`, s, and the way that may take longer for what has met and hardly moves, m.
 const NEAR_S: f64 = 0.002;
+const CREEP_M: f64 = 0.002;
 
 /// Distance of a pair.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +30,8 @@ struct Touch {
     has_touched: bool,
     /// The contact that continues.
     open: Option<usize>,
+    /// Last force, s.
+    felt_s: f64,
 }
 
 /// A run in progress.
@@ -43,6 +46,8 @@ pub(crate) struct Runner<'a> {
     pulses: Vec<Pulse>,
     fired: Vec<bool>,
     pub rides: Vec<Vec<Station>>,
+    /// Lines of each rail.
+    pub bends: Vec<Vec<Bend>>,
     pub time_s: f64,
     corners_s: Vec<f64>,
     pub evaluations: u64,
@@ -80,7 +85,7 @@ impl<'a> Runner<'a> {
             more: vec![0.0; stack.more.len()],
             light_from: stack.light_from,
         };
-        let touch = Touch { gap_m: f64::INFINITY, has_touched: false, open: None };
+        let touch = Touch { gap_m: f64::INFINITY, has_touched: false, open: None, felt_s: f64::NEG_INFINITY };
         Runner {
             setup,
             rate,
@@ -97,6 +102,7 @@ impl<'a> Runner<'a> {
             pulses: Vec::new(),
             fired: vec![false; setup.world.impulses.len()],
             rides: vec![Vec::new(); stack.cars.len()],
+            bends: vec![Vec::new(); setup.rails.len()],
             stack,
             time_s: 0.0,
             corners_s,
@@ -215,8 +221,11 @@ impl<'a> Runner<'a> {
         }
         for (pair, touch) in self.setup.pairs.iter().zip(&self.touches) {
             if touch.gap_m < f64::INFINITY {
-                let speed = self.setup.closing_m_s(pair, &self.found.poses);
-                near_s = near_s.min(((touch.gap_m - NEAR_M).max(0.0) / speed.max(1e-3)).max(NEAR_S));
+                let speed = self.setup.closing_m_s(pair, &self.found.poses).max(1e-3);
+                let has_met = |contact: &Contact| self.time_s - contact.until_s > ENDS_AFTER_S;
+                let leans = touch.open.is_some_and(|number| has_met(&self.contacts[number]));
+                let least_s = if leans { NEAR_S.max(CREEP_M / speed) } else { NEAR_S };
+                near_s = near_s.min(((touch.gap_m - NEAR_M).max(0.0) / speed).max(least_s));
             }
         }
         near_s
@@ -350,20 +359,34 @@ impl<'a> Runner<'a> {
     fn log(&mut self, h: f64, end: &Findings) {
         for (i, pair) in self.setup.pairs.iter().enumerate() {
             let ((from, from_n), (to, to_n)) = (self.found.forces[i], end.forces[i]);
-            if from_n == 0.0 && to_n == 0.0 {
+            if from_n.max(to_n) < LEAST_N {
                 continue;
             }
             let begun_s = self.time_s - h;
-            let open = self.touches[i].open.filter(|&c| self.contacts[c].until_s + ENDS_AFTER_S > begun_s);
+            let force_n = from_n.max(to_n);
+            let touch = &mut self.touches[i];
+            let was_apart = begun_s - touch.felt_s > ENDS_AFTER_S;
+            touch.felt_s = self.time_s;
+            let hits_again = |own: &Contact| {
+                let has_ended = begun_s - own.until_s > ENDS_AFTER_S;
+                has_ended && (was_apart || force_n > FADES * own.peak_n)
+            };
+            let open = touch.open.filter(|&c| !hits_again(&self.contacts[c]));
             let number = open.unwrap_or_else(|| {
                 self.contacts.push(Contact::begin(pair.car, pair.partner, begun_s));
                 self.contacts.len() - 1
             });
-            self.touches[i].open = Some(number);
+            touch.open = Some(number);
             let contact = &mut self.contacts[number];
-            contact.until_s = self.time_s;
+            if begun_s - contact.until_s > ENDS_AFTER_S {
+                // they lean on each other
+                continue;
+            }
             contact.impulse_n_s += (from + to) * (0.5 * h);
-            contact.peak_n = contact.peak_n.max(from_n).max(to_n);
+            contact.peak_n = contact.peak_n.max(force_n);
+            if force_n > FADES * contact.peak_n {
+                contact.until_s = self.time_s;
+            }
         }
     }
 

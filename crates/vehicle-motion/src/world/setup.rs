@@ -93,7 +93,7 @@ impl<'a> Setup<'a> {
         for vehicle in &vehicles {
             let (outline, nodes, of_faces) = of_body(&vehicle.body, vehicle.chassis.height_m());
             lists.push(nodes.len());
-            shapes.push(Shape { outline, nodes });
+            shapes.push(Shape::new(outline, nodes));
             laws.push(of_faces);
         }
         let hull = |v: &Vehicle| Hull::of(&v.body, v.chassis.height_m(), v.chassis.radius_m());
@@ -203,7 +203,7 @@ impl<'a> Setup<'a> {
         let at = self.rails.last().map_or(2 * self.world.barriers.len(), |rail| rail.at.end);
         let at = at..at + 2 * beam.count;
         let outline = Outline::half_space([0.0; 2], [1.0, 0.0], UPRIGHT_M);
-        self.shapes.push(Shape { outline, nodes: Vec::new() });
+        self.shapes.push(Shape::new(outline, Vec::new()));
         self.solids.push(Solid { at_m: V3::zeros(), slide: None });
         for car in 0..self.vehicles.len() {
             let passes = self.passes.len()..self.passes.len();
@@ -261,7 +261,7 @@ impl<'a> Setup<'a> {
             let is_felt = !self.is_by_impulse(car, partner);
             self.pairs.push(Pair { car, partner, body, passes: from..self.passes.len(), rail: None, is_felt });
         }
-        self.shapes.push(Shape { outline, nodes });
+        self.shapes.push(Shape::new(outline, nodes));
         self.solids.push(Solid { at_m, slide });
     }
 

@@ -24,7 +24,8 @@ impl Default for RestraintContact {
 /// The first lasting contact of head and restraint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadContact {
-    /// T-HRC(start), s: the first sample in contact.
+    /// T-HRC(start), s: the start of a straight line through the first two samples in contact, not before the last sample
+    /// without contact.
     pub start_s: f64,
     /// T-HRC(end), s: the last sample in contact; that of the record if the contact does not end.
     pub end_s: f64,
@@ -55,11 +56,23 @@ pub fn head_restraint_contact(
             Some(known) if time_s - known.end_s <= rule.longest_gap_s * (1.0 + 1e-9) + dt_s => {
                 Some(HeadContact { end_s: time_s, ..known })
             }
-            Some(known) if counts(&known) => return Ok(Some(known)),
+            Some(known) if counts(&known) => return Ok(Some(begun(force_n, dt_s, rule.least_n, known))),
             _ => Some(HeadContact { start_s: time_s, end_s: time_s }),
         };
     }
-    Ok(open.filter(counts))
+    Ok(open.filter(counts).map(|known| begun(force_n, dt_s, rule.least_n, known)))
+}
+
+/// A contact with its start between samples: a start on samples would move by one with every other sample left out.
+fn begun(force_n: &[f64], dt_s: f64, least_n: f64, known: HeadContact) -> HeadContact {
+    let first = (known.start_s / dt_s).round() as usize;
+    let (Some(here), Some(next)) = (force_n.get(first), force_n.get(first + 1)) else { return known };
+    let slope = next.abs() - here.abs();
+    if first == 0 || slope <= 0.0 {
+        return known;
+    }
+    let before = ((here.abs() - least_n) / slope).min(1.0);
+    HeadContact { start_s: (first as f64 - before) * dt_s, ..known }
 }
 
 /// Times of the samples in contact.
@@ -97,6 +110,18 @@ mod tests {
         assert_eq!(found(&[150..=199]), Some([150.0, 199.0]));
         assert_eq!(found(&[60..=80]), None);
         assert_eq!(found(&[]), None);
+    }
+
+    /// A force that rises in a line from 60.3 ms on, read every 1 ms and every 2 ms.
+    #[test]
+    fn a_contact_begins_between_samples() {
+        for step in [1, 2] {
+            let dt_s = step as f64 * DT_S;
+            let force: Vec<f64> =
+                (0..=200 / step).map(|i| 1e5 * ((i * step) as f64 * DT_S - 0.0603).max(0.0)).collect();
+            let found = head_restraint_contact(&force, dt_s, &RestraintContact::default()).unwrap().unwrap();
+            assert!((found.start_s - 0.06031).abs() < 1e-12, "{}", found.start_s);
+        }
     }
 
     #[test]

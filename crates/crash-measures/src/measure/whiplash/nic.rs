@@ -44,12 +44,14 @@ pub fn nic(t1_mps2: &[f64], head_mps2: &[f64], dt_s: f64, contact: Option<&HeadC
         return Ok(Nic { greatest: greatest_until(&values, dt_s, record_s)?, at_contact: None });
     };
     let greatest = greatest_until(&values, dt_s, contact.end_s)?;
-    let first = (contact.start_s / dt_s).round();
-    if !(first >= 0.0 && first < values.len() as f64) {
+    let first = contact.start_s / dt_s;
+    if !(first >= 0.0 && first <= (values.len() - 1) as f64) {
         let expected = "a time within the record";
         return Err(SignalError::OutOfRange { what: "start of contact (s)", found: contact.start_s, expected });
     }
-    Ok(Nic { greatest, at_contact: Some(values[first as usize]) })
+    let (below, part) = (first.floor() as usize, first.fract());
+    let above = values[(below + 1).min(values.len() - 1)];
+    Ok(Nic { greatest, at_contact: Some(values[below] + part * (above - values[below])) })
 }
 
 #[cfg(test)]

@@ -175,13 +175,16 @@ fn dimensions(car: &[Dimension], units: Units) -> String {
         let size = match own.size {
             Size::Distance(m) => units.say(m * 1e3, "mm", 0),
             Size::Angle(rad) => format!("{:.1}°", rad.to_degrees()),
+            Size::Force(n) => units.say(n, "N", 0),
+            Size::Moment(n_m) => units.say(n_m, "N·m", 0),
+            Size::Word(word) => word.to_owned(),
         };
         let code = if own.code.is_empty() { NONE } else { own.code };
         // a name of several words is no key
         let of = if own.name.contains(' ') { "" } else { "car." };
         [format!("{vehicle}{of}{}", own.name), size, code.to_owned()]
     };
-    table(&[(Left, &["distance of the car"]), (Right, &["size"]), (Left, &["SAE J1100"])], car.iter().map(row))
+    table(&[(Left, &["of the car"]), (Right, &["size"]), (Left, &["SAE J1100"])], car.iter().map(row))
 }
 
 /// Clearances in front of the body and above it.

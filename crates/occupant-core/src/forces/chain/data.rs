@@ -58,6 +58,8 @@ pub struct Node {
     pub strength_n: f64,
     /// For a node on a segment: deformable parts that it rides on; a sphere has its own.
     pub ride: Shares,
+    /// Of a point of the belt's frame: what carries it instead, in whose axes it is then, such as a back on its hinge.
+    pub frame: Option<Frame>,
 }
 
 impl Node {

@@ -8,6 +8,7 @@ use super::site::NodeLaw;
 use super::tension::{Course, Straps, Taut};
 use crate::body::Body;
 use crate::forces::element::Instant;
+use crate::motion::frame::Moving;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -177,14 +178,20 @@ impl<S: Copy> ChainLaw<S> {
 }
 
 impl<S: Scalar> ChainLaw<S> {
-    /// Positions of the nodes, and the webbing along them.
+    /// What carries a node that is off the body.
+    #[inline(always)]
+    fn carrier<'a>(&self, at: &Instant<'a, S>, node: &NodeLaw<S>) -> &'a Moving<S> {
+        &at.frames[node.frame.unwrap_or(self.frame)]
+    }
+
+    /// Places of the nodes, and the webbing along them.
     #[inline(always)]
     pub(super) fn lay(&self, at: &Instant<'_, S>, past: &ChainPast<S>, lies: &mut Lies<S>) {
         let (o, count) = (S::zero(), self.nodes.len());
         let Lies { ways, places, bends, course } = lies;
         for (k, node) in self.nodes.iter().enumerate() {
             ways[k] = node.way(at.frames.time, &past.nodes[k], &past.device);
-            places[k] = node.place(at, &at.frames[self.frame], ways[k], &past.nodes[k]);
+            places[k] = node.place(at, self.carrier(at, node), ways[k], &past.nodes[k]);
         }
         path::bends(&places[..count], &past.nodes, bends);
         *course = Course::none();
@@ -351,7 +358,7 @@ impl<S: Scalar> ChainLaw<S> {
                 own.on = S::select(changes, S::one() - own.on, own.on);
                 most = S::select(changes, o, most);
             } else {
-                let (frame, own) = (&at.frames[self.frame], (&mut next.nodes[k], next.device.time));
+                let (frame, own) = (self.carrier(at, &self.nodes[k]), (&mut next.nodes[k], next.device.time));
                 let work = self.nodes[k].commit(at, frame, now.lies.ways[k], force, own);
                 next.device.driven += work;
             }

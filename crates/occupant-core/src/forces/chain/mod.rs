@@ -265,8 +265,13 @@ fn bear<S: Scalar>(
     for (k, force) in chain.forces(now).into_iter().enumerate().take(chain.nodes.len()) {
         let node = &chain.nodes[k];
         strap += usize::from(node.rubs);
-        let Some(segment) = node.segment(at.spheres) else { continue };
         let centre = now.lies.places[k].centre;
+        let Some(segment) = node.segment(at.spheres) else {
+            if let Some(own) = node.frame {
+                hold(chain, at, own, (centre, force), load);
+            }
+            continue;
+        };
         let mut force = force;
         if let Some(next) = node.next() {
             let (is_over, none) = (past.nodes[k].is_handed_over(), V3::zero());
@@ -294,6 +299,26 @@ fn bear<S: Scalar>(
             power.vehicle += couple.dot(frame.omega);
         }
     }
+}
+
+/// Applies a force at a point of a frame other than the belt's: motion relative to the belt's frame does work on the webbing,
+/// and a yielding frame receives the force.
+#[inline(always)]
+fn hold<S: Scalar>(
+    chain: &ChainLaw<S>,
+    at: &Instant<'_, S>,
+    own: usize,
+    (point, force): (V3<S>, V3<S>),
+    load: &mut Load<S>,
+) {
+    let bearer = chain.nodes.iter().find_map(|node| node.segment(at.spheres)).unwrap_or(0);
+    let velocity = at.frames[own].velocity_at(point) - at.frames[chain.frame].velocity_at(point);
+    let given = force.dot(velocity);
+    let power = load.power_at(bearer);
+    power.sums[STRETCH] -= given;
+    // the work on a yielding frame is in the ledger of its column or hinge
+    power.vehicle -= given;
+    load.push([own, bearer], -force, point, V3::zero(), S::truth(true));
 }
 
 /// Applies a force at a point of a segment, which may move with plates, with its power; space axes.

@@ -24,6 +24,8 @@ pub(super) struct NodeLaw<S> {
     pub(super) may_leave: bool,
     /// Ride of a segment point on deformable parts.
     ride: Option<Riding<S>>,
+    /// What carries a point of the vehicle instead of the belt's frame, among the frames.
+    pub(super) frame: Option<usize>,
 }
 
 #[derive(Clone, Debug)]
@@ -176,6 +178,7 @@ impl NodeLaw<f64> {
             strength: node.strength_n,
             may_leave: !is_end && (!always || node.strength_n < NEVER),
             ride: (!node.ride.is_empty()).then(|| Riding::new(&node.ride)),
+            frame: node.frame.map(|frame| frame.index(&[])),
         }
     }
 }
@@ -207,8 +210,8 @@ impl<S: Copy> NodeLaw<S> {
     /// Structure that must be equal for side-by-side evaluation.
     pub(super) fn shape(&self) -> (usize, usize, usize, [bool; 2], Option<Vec<usize>>) {
         let (kind, of, rows) = match &self.site {
-            SiteLaw::Vehicle(_, None) => (0, 0, 0),
-            SiteLaw::Vehicle(_, Some(stroke)) => (1, 0, stroke.way.len()),
+            SiteLaw::Vehicle(_, None) => (0, self.frame.unwrap_or(0), 0),
+            SiteLaw::Vehicle(_, Some(stroke)) => (1, self.frame.unwrap_or(0), stroke.way.len()),
             SiteLaw::Segment(segment, _, away) => (2, *segment, usize::from(away.is_some())),
             SiteLaw::Track(segment, track) => (3, *segment, track.then.as_ref().map_or(0, |next| 1 + next.segment)),
             SiteLaw::Sphere(sphere) => (4, *sphere, 0),
@@ -258,6 +261,7 @@ impl<S: Copy> NodeLaw<S> {
             strength: f(self.strength, other.strength),
             may_leave: self.may_leave,
             ride: self.ride.zip(other.ride).map(|(a, b)| a.zip(&b, f)),
+            frame: self.frame,
         }
     }
 }

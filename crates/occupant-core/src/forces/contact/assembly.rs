@@ -60,6 +60,7 @@ impl ContactSystem<f64> {
         system.solids = Solids::new(body, data, &system.carriers, system.pairs.len());
         let (first, names) = (system.pairs.len() + system.solids.count(), surfaces.len() + solids.len());
         system.own = SelfPairs::new(body, self_contact, materials, first, names);
+        system.find_panes(body, data);
         system
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::body::Body;
 use crate::forces::contact::flat_face::FlatFace;
-use crate::forces::contact::material::{Force, Material};
+use crate::forces::contact::material::{Breaking, Force, Limit, Material};
 use crate::forces::contact::near::{Bounds, near_pairs};
 use crate::forces::contact::self_contact::is_skin;
 use crate::forces::contact::solid::{CONCAVE_WITHIN_M, Solid, build, concave_rad};
@@ -45,9 +45,9 @@ pub(super) fn check(data: &ContactData<'_>, body: &Body, problems: &mut Problems
 
 fn check_material(m: &Material, problems: &mut Problems) {
     let path = with_key("materials", &m.name);
-    match &m.force {
-        Force::Bilinear(spring) => spring.check(&path, problems),
-        Force::Deflection(law) => law.check(&path, problems),
+    m.force.check(&path, problems);
+    if let Some(breaks) = &m.breaks {
+        check_breaking(m, breaks, &with_key(&path, "breaks"), problems);
     }
     problems.check_at_least_zero(&format!("{path}.friction"), m.friction, "");
     problems.check_positive(&format!("{path}.friction_speed"), m.friction_speed_m_s, "m/s");
@@ -67,6 +67,21 @@ fn check_material(m: &Material, problems: &mut Problems) {
     }
 }
 
+/// A pane bears something, and its laws are known as deep as a sphere may go.
+fn check_breaking(m: &Material, breaks: &Breaking, path: &str, problems: &mut Problems) {
+    let (key, unit) = match breaks.limit {
+        Limit::Force(_) => ("force", "N"),
+        Limit::Energy(_) => ("energy", "J"),
+    };
+    problems.check_positive(&with_key(path, key), breaks.limit.value(), unit);
+    if let Some(left) = &breaks.left {
+        left.check(path, problems);
+    }
+    if [Some(&m.force), breaks.left.as_ref()].into_iter().flatten().any(Force::ends) {
+        problems.error(path, "a law that ends, of a pane that breaks", "`beyond` = \"extends\" or \"holds\"");
+    }
+}
+
 /// Skins deform in series, which needs a stiffness of each.
 fn check_skins(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
     let Some(own) = data.self_contact else { return };
@@ -77,6 +92,9 @@ fn check_skins(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
         problems.error("self_contact.pairs", "no such sphere", "spheres of the body");
     }
     let mut skins = own.skins.iter().filter_map(|skin| data.materials.get(*skin));
+    if let Some(pane) = skins.clone().find(|m| m.breaks.is_some()) {
+        problems.error("self_contact.skin", format!("the skin {} breaks", pane.name), "a material without `breaks`");
+    }
     if let Some(soft) = skins.find(|m| !is_skin(&m.force) || m.friction_factors.iter().any(|rows| !rows.is_empty())) {
         let why = if soft.force.bilinear().is_some() { "has no stiffness" } else { "is not of lines that rise alone" };
         let found = format!("the skin {} {why}", soft.name);

@@ -81,7 +81,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         if self.accepted {
             self.contacts.open(i, depth, &mut past[i]);
         }
-        self.meet(i, depth, depth.gt(S::zero()) & near, &mut past[i], power, show);
+        self.meet(i, depth, depth.gt(S::zero()) & near, past, power, show);
         depth
     }
 
@@ -93,19 +93,19 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         i: usize,
         depth: S,
         contact: S::Mask,
-        history: &mut PairHistory<S>,
+        past: &mut [PairHistory<S>],
         power: &mut Work<S>,
         show: &mut impl FnMut(&Touch<S>),
     ) {
         if !S::any(contact) {
             return;
         }
-        let live = contact & history.phase.lt(S::of(PASSED));
+        let live = contact & past[i].phase.lt(S::of(PASSED));
         if !S::any(live) {
             return;
         }
         let approach = self.approach();
-        let touch = self.contacts.touch(self.accepted, self.group, i, depth, live, &approach, history);
+        let touch = self.contacts.touch(self.accepted, self.group, i, depth, live, &approach, past);
         if let Some(touch) = touch {
             self.take(touch, &approach, self.site.radius, power, show);
         }
@@ -129,10 +129,10 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         if self.accepted {
             union.commit(nearest.depth, &mut past[i]);
         }
-        let live = nearest.depth.gt(S::zero()) & near;
+        let live = nearest.depth.gt(S::zero()) & near & !union.law.is_gone(past);
         if S::any(live) {
             let approach = self.approach();
-            let touch = union.press(self.group, i, nearest, live, &approach, past[i].greatest);
+            let touch = union.press(self.group, i, nearest, live, &approach, past);
             self.take(touch, &approach, lever(nearest.depth, radius), power, show);
         }
         nearest.depth
@@ -203,7 +203,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
 
     /// How the sphere moves relative to the frame.
     #[inline(always)]
-    fn approach(&mut self) -> Approach<S> {
+    pub(super) fn approach(&mut self) -> Approach<S> {
         let (n, k, frame) = (self.site.segment, self.k, self.frame);
         let (arm, centre, centre_f) = (self.arm, self.centre, self.centre_f);
         if let Some(load) = &self.load {

@@ -130,6 +130,13 @@ impl<S: Scalar> ContactHints<S> {
         start..start + self.looks[g].near
     }
 
+    /// Whether pair `i` of `group`, number `g`, may touch at the next commit; of what the last commit has not seen all may.
+    #[inline(always)]
+    pub(super) fn may_touch(&self, g: usize, group: &Group, i: usize) -> bool {
+        let near = &self.near[self.near_of(g, group)];
+        near.iter().any(|near| near.pair as usize == i) || S::any(self.looks[g].reach_squared.lt(S::zero()))
+    }
+
     /// Makes the watched pairs of `group`, number `g`, those that an evaluation looks at; returns how many there are.
     pub(super) fn look_at_watched(&mut self, g: usize, group: &Group) -> usize {
         for place in self.watched_of(g, group) {

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::forces::function::ForceDeflection;
+use crate::forces::function::{Beyond, ForceDeflection};
 use crate::forces::spring::BilinearSpring;
+use placed_text::Problems;
 
 /// Memory of crush.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -33,6 +34,35 @@ pub struct Material {
     pub friction_speed_m_s: f64,
     /// Memory after the contact opens.
     pub memory: Memory,
+    /// When a surface or solid of it breaks as a whole; none of what never does.
+    pub breaks: Option<Breaking>,
+}
+
+/// A pane: it is whole for all parts of all bodies until one segment, with all its spheres together, reaches a limit, and
+/// broken for all from then on. How deep it is pressed, and what that leaves, stays a matter of each sphere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Breaking {
+    /// What it bears.
+    pub limit: Limit,
+    /// Normal force over depth of what is left; none where nothing is.
+    pub left: Option<Force>,
+}
+
+/// What a pane bears of one segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// Normal force, N.
+    Force(f64),
+    /// Work of loading, J: the area below force over depth up to the largest depth, without factors of speed and damper.
+    Energy(f64),
+}
+
+impl Limit {
+    /// Its number, N or J.
+    pub fn value(self) -> f64 {
+        let (Limit::Force(value) | Limit::Energy(value)) = self;
+        value
+    }
 }
 
 /// Normal force over depth.
@@ -62,6 +92,19 @@ impl Force {
             Force::Deflection(law) => law.steepest(),
         }
     }
+
+    /// Reports problems of it under `path`.
+    pub(super) fn check(&self, path: &str, problems: &mut Problems) {
+        match self {
+            Force::Bilinear(spring) => spring.check(path, problems),
+            Force::Deflection(law) => law.check(path, problems),
+        }
+    }
+
+    /// Whether it is unknown beyond its last point.
+    pub(super) fn ends(&self) -> bool {
+        matches!(self, Force::Deflection(law) if law.loading.beyond == Beyond::Limits)
+    }
 }
 
 impl From<BilinearSpring> for Force {
@@ -86,6 +129,7 @@ impl Material {
             friction_factors: [Vec::new(), Vec::new()],
             friction_speed_m_s: DEFAULT_FRICTION_SPEED_M_S,
             memory: Memory::default(),
+            breaks: None,
         }
     }
 }

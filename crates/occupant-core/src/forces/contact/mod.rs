@@ -10,6 +10,7 @@ mod hints;
 mod law;
 pub mod material;
 pub(crate) mod near;
+mod pane;
 mod results;
 pub mod self_contact;
 pub mod solid;
@@ -28,7 +29,7 @@ use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
 use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
-use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum, passes};
 use crate::forces::list::STORES;
 use crate::forces::pace::Pace;
 use crate::forces::sphere::Site;
@@ -142,7 +143,7 @@ impl Element for Contacts {
     }
 
     fn count<S>(law: &ContactSystem<S>) -> usize {
-        law.own.first + law.own.pairs.len()
+        law.first_pane() + law.panes.len()
     }
 
     fn most_actions<S>(law: &ContactSystem<S>) -> usize {
@@ -186,6 +187,31 @@ impl Element for Contacts {
         ([OPEN, TOUCHING, PASSED].contains(&past.phase) || may_be_face && is_face)
             && past.greatest.is_finite()
             && past.greatest >= 0.0
+            || law.is_pane(number, past)
+    }
+
+    fn can_switch(law: &ContactSystem<f64>) -> bool {
+        !law.panes.is_empty()
+    }
+
+    #[inline(always)]
+    fn switches<S: Scalar>(past: &PairHistory<S>) -> S {
+        S::select(past.is_broken(), S::one(), S::zero())
+    }
+
+    #[inline(always)]
+    fn any_switched<S: Scalar>(before: &[PairHistory<S>], now: &[PairHistory<S>]) -> S::Mask {
+        pane::any_broke(before, now)
+    }
+
+    fn due<S: Scalar<Mask = bool>>(
+        _law: &ContactSystem<S>,
+        _number: usize,
+        before: &PairHistory<S>,
+        now: &PairHistory<S>,
+        _times_s: [S; 2],
+    ) -> Option<S> {
+        Some(passes(S::one(), before.greatest, now.greatest))
     }
 
     fn confine(past: &mut PairHistory<f64>) {
@@ -205,6 +231,9 @@ impl Element for Contacts {
         if at.accepted {
             hints.pace = Pace::any();
             reach = law.reach(at);
+            if !law.panes.is_empty() {
+                law.strain_panes(at, past, hints);
+            }
         }
         for (g, group) in law.groups.iter().enumerate() {
             let aside = law.aside(group, at, load);
@@ -358,27 +387,29 @@ impl ContactSystem<f64> {
         faces.unwrap_or_else(|| &self.solids.pairs[touch.pair - self.pairs.len()].law).friction
     }
 
-    /// Normal force law of a part of a pair.
-    fn law(&self, pair: usize, part: usize) -> &ForceLaw<f64> {
-        let law = match (self.own.get(pair), self.pairs.get(pair)) {
+    /// Law of a part of a pair.
+    fn law(&self, pair: usize, part: usize) -> &MaterialLaw<f64> {
+        match (self.own.get(pair), self.pairs.get(pair)) {
             (Some(own), _) => &own.law,
             (None, Some(faces)) => &faces.parts[part].law,
             (None, None) => &self.solids.pairs[pair - self.pairs.len()].law,
-        };
-        &law.force
+        }
     }
 
-    /// Depth of the last point of the force function that a touch follows, m; infinite of a spring, and of two skins as one.
+    /// Depth of the last point of the force function that a touch follows, m; infinite of a spring, and of two skins as one. Of
+    /// what breaks it is that of what is left.
     pub(crate) fn last_point_m(&self, touch: &Touch<f64>) -> f64 {
-        match self.law(touch.pair, touch.part as usize) {
-            ForceLaw::Deflection(law) if self.own.get(touch.pair).is_none() => law.last_point(),
-            _ => f64::INFINITY,
+        let law = self.law(touch.pair, touch.part as usize);
+        match &law.breaks {
+            _ if self.own.get(touch.pair).is_some() => f64::INFINITY,
+            Some(breaks) => breaks.left.as_ref().map_or(f64::INFINITY, ForceLaw::last_point_m),
+            None => law.force.last_point_m(),
         }
     }
 
     /// Deformation at which the slope of a pair's spring changes, m; of a force function, which may bend often, none is.
     pub fn knee_m(&self, pair: usize, part: usize) -> f64 {
-        match self.law(pair, part) {
+        match &self.law(pair, part).force {
             ForceLaw::Bilinear(spring) => spring.knee(),
             ForceLaw::Deflection(_) => f64::INFINITY,
         }

@@ -1,6 +1,8 @@
 //! Storage of the memory of sphere–face pairs in result files: only pairs that are not open and undeformed, by number.
 
-use super::{Contacts, FACE, OPEN, PASSED, PairHistory, TOUCHING, Touch};
+use super::pane::Pane;
+use super::{ContactData, ContactSystem, Contacts, FACE, OPEN, PASSED, PairHistory, TOUCHING, Touch};
+use crate::body::Body;
 use crate::forces::shown::{Reported, Tracker};
 use crate::forces::stored::Archive;
 use crate::motion::scalar::Scalar;
@@ -9,10 +11,42 @@ use crate::quantity::FieldWords;
 /// A file that has more pairs than this is none of ours.
 const MOST_PAIRS: u64 = 1 << 20;
 
+/// The event of a pane, followed by the name of a segment.
+const BREAKS: &str = "breaks under the";
+
 impl Reported for Contacts {
     #[inline(always)]
     fn track<S: Scalar>(touch: &Touch<S>, tracker: &mut impl Tracker<S>) {
         tracker.touch(touch);
+    }
+
+    const BY_STEPS: &'static [&'static str] = &[BREAKS];
+
+    /// Each pane with each segment that may break it.
+    fn most_told(law: &ContactSystem<f64>) -> usize {
+        law.panes.iter().map(|pane| pane.segments).sum()
+    }
+
+    fn tellers(data: ContactData<'_>, law: &ContactSystem<f64>, body: &Body) -> Vec<[String; 2]> {
+        let surfaces = data.surfaces.iter().map(|s| &s.name).chain(data.solids.iter().map(|s| &s.name));
+        let names: Vec<&String> = surfaces.collect();
+        let segments = || body.tree.segments().map(|segment| body.tree[segment].name.to_string());
+        let of = |pane: &Pane| segments().map(|segment| [names[pane.surface].clone(), segment]).collect::<Vec<_>>();
+        law.panes.iter().flat_map(of).collect()
+    }
+
+    fn switched(
+        law: &ContactSystem<f64>,
+        before: &[PairHistory<f64>],
+        now: &[PairHistory<f64>],
+        show: &mut dyn FnMut(usize, &'static str),
+    ) {
+        let both = before.iter().zip(now).skip(law.first_pane());
+        for (i, ((before, now), pane)) in both.zip(&law.panes).enumerate() {
+            if let (None, Some(segment)) = (before.broken_by(), now.broken_by()) {
+                show(i * pane.segments + segment, BREAKS);
+            }
+        }
     }
 
     fn keep(past: &mut Vec<PairHistory<f64>>, like: Option<&[PairHistory<f64>]>, file: &mut dyn Archive) {

@@ -5,6 +5,7 @@
 //! the others are skipped.
 
 use super::hints::{ContactHints, LEAST_WAY_M, Looking};
+use super::pane::WHOLE;
 use super::{ContactSystem, Contacts, OPEN, PASSED, PairHistory, TOUCHING, weight};
 use crate::forces::element::{Element, Instant};
 use crate::motion::vector::V3;
@@ -41,6 +42,7 @@ impl ContactSystem<f64> {
         }
         past.truncate(self.own.first);
         past.extend(self.own.start(at));
+        past.extend(self.panes.iter().map(|_| PairHistory { phase: WHOLE, greatest: 0.0 }));
         looks + self.own.pairs.len()
     }
 

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::face::{Offset, Outline, V2};
 use crate::forces::contact::law::{Law, MaterialLaw, Meeting};
+use crate::forces::contact::pane::Pane;
 use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
 use crate::forces::sphere::Use;
@@ -98,7 +99,8 @@ pub struct Group {
     pub pairs: std::ops::Range<usize>,
 }
 
-/// What a pair remembers between steps, or a sphere of one of the solids that it meets as one.
+/// What a pair remembers between steps, or a sphere of one of the solids that it meets as one, or a pane: of a pane the phase is
+/// that of [`Pane`], and `greatest` is the part of its limit that the segment nearest to it has taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairHistory<S> {
     /// [`OPEN`], [`TOUCHING`] or [`PASSED`], or the remembered face of a solid.
@@ -159,6 +161,8 @@ pub struct ContactSystem<S> {
     pub(crate) own: SelfPairs<S>,
     /// Segments that carry faces, whose frames stand behind all others.
     pub(crate) carriers: Vec<usize>,
+    /// What breaks as a whole, remembered behind all pairs.
+    pub(crate) panes: Vec<Pane>,
     /// A face farther than this, m, cannot be met within one step unless something goes faster than any crash.
     pub(crate) reach_of_a_step: S,
 }
@@ -176,14 +180,16 @@ impl<S: Scalar> ContactSystem<S> {
         depth: S,
         live: S::Mask,
         approach: &Approach<S>,
-        history: &mut PairHistory<S>,
+        past: &mut [PairHistory<S>],
     ) -> Option<Touch<S>> {
         let (o, touching) = (S::zero(), S::of(TOUCHING));
         let pair = &self.pairs[i];
         let radius = approach.radius;
         let (offset, nearest) = pair.nearest(approach.centre);
+        let live = live & !pair.is_gone(nearest, past);
         let w = S::select(live, weight(offset.distance, radius), o);
         if accepted {
+            let history = &mut past[i];
             let on = w.gt(o);
             let phase = S::select(on, touching, S::of(PASSED));
             history.phase = S::select(live, phase, history.phase);
@@ -192,7 +198,7 @@ impl<S: Scalar> ContactSystem<S> {
         if !S::any(w.gt(o)) {
             return None;
         }
-        Some(pair.press(group, i, nearest, approach, depth, w, &offset, history.greatest))
+        Some(pair.press(group, i, nearest, approach, depth, w, &offset, past))
     }
 
     /// Opens a pair that is apart, and forgets its crush unless its material keeps it.
@@ -249,11 +255,11 @@ impl<S: Scalar> Pair<S> {
         depth: S,
         w: S,
         offset: &Offset<S>,
-        greatest: S,
+        past: &[PairHistory<S>],
     ) -> Touch<S> {
         let radius = approach.radius;
-        let meeting = approach.meeting(self.normal, radius, depth, greatest, w);
-        let law = self.law(part, &meeting);
+        let meeting = approach.meeting(self.normal, radius, depth, past[index].greatest, w);
+        let law = self.law(part, &meeting, past);
         let stored = w * law.energy;
         let edge_force = law.energy * S::select(w.lt(S::one()), S::one(), S::zero()) / radius;
         let edge = (self.u * offset.away.u + self.v * offset.away.v) * edge_force;
@@ -277,15 +283,22 @@ impl<S: Scalar> Pair<S> {
         }
     }
 
+    /// Where nothing is left of the part that each lane is nearest to.
+    #[inline(always)]
+    fn is_gone(&self, part: S, past: &[PairHistory<S>]) -> S::Mask {
+        let parts = self.parts.iter().enumerate().filter(|(_, p)| p.law.breaks.is_some());
+        parts.fold(S::truth(false), |gone, (i, p)| gone | is_part(part, i) & p.law.is_gone(past))
+    }
+
     /// Force and friction of the part that each lane is nearest to.
     #[inline(always)]
-    fn law(&self, part: S, meeting: &Meeting<S>) -> Law<S> {
+    fn law(&self, part: S, meeting: &Meeting<S>, past: &[PairHistory<S>]) -> Law<S> {
         let o = S::zero();
         let mut law = Law { force: o, energy: o, friction: o, friction_speed_squared: o };
         for (i, p) in self.parts.iter().enumerate() {
-            let here = S::of(i as f64 - 0.5).lt(part) & part.lt(S::of(i as f64 + 0.5));
+            let here = is_part(part, i);
             if S::any(here) {
-                let l = p.law.at(meeting);
+                let l = p.law.at(meeting, past);
                 law = Law {
                     force: S::select(here, l.force, law.force),
                     energy: S::select(here, l.energy, law.energy),
@@ -306,6 +319,12 @@ impl Touch<f64> {
         let (sphere, part) = if self.sphere == spheres[0] { (spheres[1], 1.0) } else { (spheres[0], 0.0) };
         Touch { sphere, part, normal, friction, velocity, slip, force, ..*self }
     }
+}
+
+/// Where the nearest part is number `i`.
+#[inline(always)]
+pub(super) fn is_part<S: Scalar>(part: S, i: usize) -> S::Mask {
+    S::of(i as f64 - 0.5).lt(part) & part.lt(S::of(i as f64 + 0.5))
 }
 
 /// w = clamp01(1 − d/r).

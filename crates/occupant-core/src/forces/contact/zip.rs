@@ -1,5 +1,6 @@
 //! Contact laws number by number.
 
+use super::law::BreakLaw;
 use super::{ContactSystem, ForceLaw, MaterialLaw, Pair, Part, Plane};
 use crate::forces::element::Unlike;
 
@@ -16,7 +17,7 @@ impl<S: Copy> ContactSystem<S> {
         other: &ContactSystem<A>,
         f: &impl Fn(S, A) -> T,
     ) -> Result<ContactSystem<T>, Unlike> {
-        if self.groups != other.groups {
+        if self.groups != other.groups || self.panes != other.panes {
             return Err(OTHER_PAIRS);
         }
         let planes = self.planes.iter().zip(&other.planes);
@@ -29,6 +30,7 @@ impl<S: Copy> ContactSystem<S> {
             solids: self.solids.zip(&other.solids, f)?,
             own: self.own.zip(&other.own, f)?,
             carriers: self.carriers.clone(),
+            panes: self.panes.clone(),
             reach_of_a_step: f(self.reach_of_a_step, other.reach_of_a_step),
         })
     }
@@ -77,14 +79,14 @@ impl<S: Copy> MaterialLaw<S> {
             return Err(OTHER_LAWS);
         }
         let [over_slip, over_force] = &self.friction_factors;
+        let breaks = match (&self.breaks, &other.breaks) {
+            (Some(a), Some(b)) => Some(Box::new(a.zip(b, f)?)),
+            (None, None) => None,
+            _ => return Err(OTHER_LAWS),
+        };
         Ok(MaterialLaw {
-            force: match (&self.force, &other.force) {
-                (ForceLaw::Bilinear(a), ForceLaw::Bilinear(b)) => ForceLaw::Bilinear(a.zip(b, f)),
-                (ForceLaw::Deflection(a), ForceLaw::Deflection(b)) => {
-                    ForceLaw::Deflection(Box::new(a.zip(b, f).ok_or(OTHER_LAWS)?))
-                }
-                _ => return Err(OTHER_LAWS),
-            },
+            force: self.force.zip(&other.force, f)?,
+            breaks,
             friction: f(self.friction, other.friction),
             friction_speed_squared: f(self.friction_speed_squared, other.friction_speed_squared),
             friction_factors: [
@@ -92,5 +94,31 @@ impl<S: Copy> MaterialLaw<S> {
                 over_force.zip(&other.friction_factors[1], f),
             ],
         })
+    }
+}
+
+impl<S: Copy> ForceLaw<S> {
+    fn zip<A: Copy, T>(&self, other: &ForceLaw<A>, f: &impl Fn(S, A) -> T) -> Result<ForceLaw<T>, Unlike> {
+        match (self, other) {
+            (ForceLaw::Bilinear(a), ForceLaw::Bilinear(b)) => Ok(ForceLaw::Bilinear(a.zip(b, f))),
+            (ForceLaw::Deflection(a), ForceLaw::Deflection(b)) => {
+                Ok(ForceLaw::Deflection(Box::new(a.zip(b, f).ok_or(OTHER_LAWS)?)))
+            }
+            _ => Err(OTHER_LAWS),
+        }
+    }
+}
+
+impl<S: Copy> BreakLaw<S> {
+    fn zip<A: Copy, T>(&self, other: &BreakLaw<A>, f: &impl Fn(S, A) -> T) -> Result<BreakLaw<T>, Unlike> {
+        let left = match (&self.left, &other.left) {
+            (Some(a), Some(b)) => Some(a.zip(b, f)?),
+            (None, None) => None,
+            _ => return Err(OTHER_LAWS),
+        };
+        if self.pane != other.pane {
+            return Err(OTHER_PAIRS);
+        }
+        Ok(BreakLaw { pane: self.pane, per: [0, 1].map(|i| f(self.per[i], other.per[i])), left })
     }
 }

@@ -135,6 +135,15 @@ impl<S: Scalar> DeflectionLaw<S> {
         self.within(depth, greatest, closing)
     }
 
+    /// Work of loading up to a deformation, J, without factors of speed and damper.
+    pub(crate) fn work(&self, top: S) -> S {
+        let of = |law: &FunctionLaw<S>| {
+            let [_, kept, lost] = law.returned_to(top);
+            kept + lost
+        };
+        self.spike.as_ref().map_or(S::zero(), of) + of(&self.loading)
+    }
+
     #[inline(always)]
     fn within(&self, depth: S, greatest: S, closing: S) -> (S, S) {
         let (o, top) = (S::zero(), depth.max(greatest));

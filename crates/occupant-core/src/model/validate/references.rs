@@ -77,6 +77,11 @@ fn check_carried(setup: &Setup, problems: &mut Problems) {
     setup.scenery.iter().for_each(|one| each(with_key("scenery", &one.name), one.frame, true));
     setup.belts.iter().for_each(|one| each(with_key("belts", &one.name), one.frame, false));
     setup.chains.iter().for_each(|one| each(with_key("belts", &one.belt), one.frame, false));
+    let nodes = setup.chains.iter().flat_map(|chain| chain.nodes.iter().map(move |node| (chain, node)));
+    for (chain, node) in nodes {
+        let path = format!("{}.{}", with_key("belts", &chain.belt), node.name);
+        node.frame.iter().for_each(|frame| each(path.clone(), *frame, false));
+    }
     let at = match &setup.posture {
         InitialPosture::Mounted(mounting) => Some(mounting.frame),
         InitialPosture::Placed(placing) => Some(placing.at.frame),

@@ -1,5 +1,7 @@
 //! Events of force elements in a run: spools lock, webbing leaves a node.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use crate::forces::shown::Reported;
@@ -17,8 +19,8 @@ pub struct Event {
     pub time_s: f64,
     /// Name of the element.
     pub name: String,
-    /// Event, as text that follows the name.
-    pub what: &'static str,
+    /// What it did, in words that follow its name.
+    pub what: Cow<'static, str>,
 }
 
 /// Events so far, of the kinds that report them. Allocates at the start of a run only.
@@ -26,7 +28,8 @@ pub struct Event {
 pub(super) struct Events {
     /// Actions at the output before.
     before: Option<Actions<f64>>,
-    names: Vec<String>,
+    /// Of each that has events a name, and what follows the words.
+    names: Vec<[String; 2]>,
     seen: Seen,
 }
 
@@ -74,10 +77,10 @@ impl Events {
 
     /// First events, in order of time.
     pub(super) fn list(&self) -> Vec<Event> {
-        let event = |(time_s, i, what): &(f64, usize, &'static str)| Event {
-            time_s: *time_s,
-            name: self.names[*i].clone(),
-            what,
+        let event = |(time_s, i, what): &(f64, usize, &'static str)| {
+            let [name, rest] = &self.names[*i];
+            let what = if rest.is_empty() { Cow::from(*what) } else { format!("{what} {rest}").into() };
+            Event { time_s: *time_s, name: name.clone(), what }
         };
         let mut list: Vec<Event> = self.seen.first.iter().map(event).collect();
         list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
@@ -85,12 +88,13 @@ impl Events {
     }
 }
 
-struct Names<'a>(&'a Model, Vec<String>);
+struct Names<'a>(&'a Model, Vec<[String; 2]>);
 
 impl Visitor for Names<'_> {
     fn visit<E: Listed>(&mut self) {
-        let named = self.0.named(E::NAMES[0]);
-        self.1.extend(named.into_iter().filter(|_| E::TELLS).map(|one| one.name.to_owned()));
+        let model = self.0;
+        let data = E::data(&model.setup().forces(model.faces()));
+        self.1.extend(E::tellers(data, E::law(&model.system().forces), model.body()));
     }
 }
 
@@ -104,12 +108,14 @@ struct See<'s, 'a> {
 
 impl Visitor for See<'_, '_> {
     fn visit<E: Listed>(&mut self) {
-        if !<E as Reported>::TELLS {
-            return;
-        }
+        let count = E::most_told(E::law(&self.sample.model.system().forces));
         let now = E::actions(self.sample.actions);
         for one in self.sample.switched.iter().filter(|one| one.of == E::NAMES[0]) {
             self.seen.note(one.time_s, self.first + one.element, one.what);
+        }
+        if !<E as Reported>::TELLS {
+            self.first += count;
+            return;
         }
         // files of 0.1.0 know no steps
         let is_told = |what| E::BY_STEPS.contains(&what) && !self.sample.step_peaks.are_unknown();
@@ -128,7 +134,7 @@ mod tests {
 
     #[test]
     fn events_beyond_the_list_are_counted() {
-        let mut events = Events { names: vec!["strap".to_owned()], ..Events::default() };
+        let mut events = Events { names: vec![["strap".to_owned(), String::new()]], ..Events::default() };
         (0..MOST + 27).for_each(|i| events.seen.note(i as f64, 0, "goes slack"));
         assert_eq!((events.list().len(), events.more()), (MOST, 27));
         assert_eq!(events.list().last().unwrap().time_s, 99.0);

@@ -8,7 +8,7 @@ pub mod compartment;
 pub mod forces;
 pub mod labels;
 pub mod lines;
-mod primitive;
+pub(super) mod primitive;
 
 use super::wire::Wire;
 
@@ -22,8 +22,8 @@ impl Color {
         [self.0, self.1, self.2, self.3]
     }
 
-    /// The colour with another opacity.
-    const fn with_opacity(self, opacity: f64) -> Self {
+    /// The same with another opacity.
+    pub(super) const fn with_opacity(self, opacity: f64) -> Self {
         Color(self.0, self.1, self.2, opacity)
     }
 }
@@ -39,8 +39,8 @@ pub fn replace(wire: &mut Wire, ns: u64, content: impl FnOnce(&mut Wire)) {
     content(wire);
 }
 
-/// An entity fixed to `frame`, shown until it is replaced.
-fn entity(wire: &mut Wire, ns: u64, frame: &str, id: &str, content: impl FnOnce(&mut Wire)) {
+/// An entity that is drawn until it is replaced and that moves with `frame`.
+pub(super) fn entity(wire: &mut Wire, ns: u64, frame: &str, id: &str, content: impl FnOnce(&mut Wire)) {
     const FOR_EVER: u64 = 0;
     wire.message(2, |w| {
         w.time(1, ns);

@@ -17,7 +17,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vehicle_motion::V3;
-use vehicle_motion::car::Car;
+use vehicle_motion::car::{Car, CarError};
 use vehicle_motion::integrate::Tolerance;
 use vehicle_motion::path::DrivenPath as Motion;
 use vehicle_motion::world::{Begin, Entry, Outcome, World, WorldError};
@@ -28,6 +28,8 @@ pub(super) use self::facts::{facts, logs};
 use self::ground::RoadSection;
 pub(crate) use self::people::{People, asks_for_people};
 pub(super) use self::scenery::scenery;
+pub use self::scenery::{Drawing, drawings};
+pub use self::standing::moving_rails;
 use self::vehicle::DrivenSection;
 use super::builder::Builder;
 use super::path::PathSection;
@@ -205,19 +207,38 @@ pub(crate) fn solve(
     let barriers = section.barriers.iter().map(|(name, own)| (name.clone(), own.kind())).collect();
     let solved = Solved { vehicles, outcome, world, barriers, people: people.to_vec(), paths };
     solved.warn_of_crush(b);
+    solved.warn_of_rails(b);
     Ok((Some(Drives(Arc::new(solved))), std::mem::take(&mut b.problems)))
 }
 
 /// Longest step of a drive, s: the occupants' frame moves along polynomials between its stations.
 const LONGEST_S: f64 = 0.01;
 
-/// Reports why the drive failed.
+/// The key of a vehicle that a problem is about, and what is expected of it.
+fn mend(what: &CarError) -> (&'static str, &'static str) {
+    match what {
+        CarError::Inertia => ("inertia", "[roll, pitch, yaw], each at most the sum of the other two"),
+        CarError::Wheels => ("suspension", "lighter wheels, or a heavier vehicle with larger moments of inertia"),
+        CarError::Axles { .. } => ("cg_behind_front_axle", "a centre of gravity between the axles"),
+        CarError::Crown { .. } => ("tyres", "a larger radius"),
+        CarError::Shares { what: "brake", .. } => ("brakes", "four shares that sum to 1"),
+        CarError::Shares { .. } => ("drive_shares", "four shares that sum to 1"),
+        _ => ("preset", "a vehicle that can stand on its wheels"),
+    }
+}
+
+/// Reports why vehicles could not be driven.
 fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
     let at = |car: usize| {
         section.vehicles.get_index(car).map_or_else(String::new, |(name, _)| with_key("drive.vehicles", name))
     };
     match error {
-        WorldError::Car { car, what } => b.error(&at(*car), what.to_string(), "a vehicle that can stand on its wheels"),
+        WorldError::Car { car, what } => {
+            let (key, expected) = mend(what);
+            let own = at(*car);
+            let place = if b.document.has(&format!("{own}.{key}")) { format!("{own}.{key}") } else { own };
+            b.error(&place, what.to_string(), expected);
+        }
         WorldError::Overlap { between: (one, other), depth_m } => {
             let name = |car: usize| section.vehicles.get_index(car).map_or("", |(name, _)| name.as_str());
             let found = format!("{} and {} overlap by {depth_m:.3} m at the start", name(*one), name(*other));
@@ -231,6 +252,11 @@ fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
         WorldError::Barrier { barrier, what } => {
             let name = section.barriers.get_index(*barrier).map_or("", |(name, _)| name.as_str());
             b.error(&with_key("drive.barriers", name), *what, "a barrier that stands");
+        }
+        WorldError::Step { .. } if b.document.has("drive.ground.curbs") => {
+            let expected =
+                "inputs that a vehicle can follow: no wheel that strikes a curb sideways at more than 14 m/s";
+            b.error("drive.ground.curbs", error.to_string(), expected);
         }
         other => b.error("drive", other.to_string(), "inputs that a vehicle can follow"),
     }

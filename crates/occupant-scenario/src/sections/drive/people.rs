@@ -1,6 +1,9 @@
 //! Occupants of driven vehicles: their mass, and whether the crush reaches them.
 
 use vehicle_motion::V3;
+use vehicle_motion::barrier::Barrier;
+use vehicle_motion::body::Side;
+use vehicle_motion::run::Station;
 use vehicle_motion::world::Partner;
 
 use super::super::Scenario;
@@ -29,7 +32,10 @@ struct Ball {
     radius_m: f64,
 }
 
-/// Intrusion into a sphere below which crush is ignored, m.
+/// What the crush pushes ahead of itself, in words.
+const BEHIND_M: &str = "0.2 m of door and 0.4 m of engine";
+
+/// Crush that reaches less deep into a sphere is ignored, m.
 const REACHES_M: f64 = 0.05;
 
 /// Whether a load depends on a vehicle's occupants, or its crush may reach them.
@@ -86,7 +92,7 @@ impl Scenario {
             let Some((ball, reach_m)) = solved.reached(number, self.time.end.si()) else { continue };
             let name = &solved.vehicles[number].name;
             let found = format!(
-                "the crush of {name} reaches {reach_m:.2} m into the {} of its occupant, but no panel of the scenario intrudes",
+                "the crush of {name} reaches {reach_m:.2} m into the {} of its occupant, but no panel of the scenario intrudes; {BEHIND_M} behind it are guesses",
                 ball.name
             );
             let expected = "a panel in [frames] that intrudes as far, a seat farther away, or a milder collision";
@@ -148,9 +154,49 @@ impl Solved {
         reached.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, reach_m)| *reach_m > REACHES_M)
     }
 
-    /// Warns of crush that is deeper than the front is long.
+    /// Warns of vehicles that meet a rail beyond an end: there it is a point that holds, and nothing stands behind it.
+    pub(super) fn warn_of_rails(&self, b: &mut Builder) {
+        for contact in &self.outcome.contacts {
+            let Partner::Barrier(number) = contact.partner else { continue };
+            let Barrier::Rail(rail) = &self.world.barriers[number] else { continue };
+            let (own, [from, to]) = (&self.vehicles[contact.car], rail.line_m);
+            let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
+            let body = &own.car.body;
+            let (ahead_m, behind_m) = (body.front_m, body.front_m - body.length_m);
+            let share = |station: &Station, x: f64, y: f64| {
+                let at = station.position_m + station.attitude * V3::new(x, y, 0.0);
+                ((at.x - from[0]) * (to[0] - from[0]) + (at.y - from[1]) * (to[1] - from[1])) / (length_m * length_m)
+            };
+            let half_m = 0.5 * body.width_m;
+            let corners = [(ahead_m, half_m), (ahead_m, -half_m), (behind_m, half_m), (behind_m, -half_m)];
+            let meets = |station: &&Station| contact.from_s <= station.time_s && station.time_s <= contact.until_s;
+            let beyond =
+                |station: &Station| corners.iter().any(|(x, y)| !(0.0..=1.0).contains(&share(station, *x, *y)));
+            let Some(first) = self.outcome.rides[contact.car].stations().iter().filter(meets).find(|s| beyond(s))
+            else {
+                continue;
+            };
+            let found =
+                format!("{} is beyond an end of this rail at {:.3} s, while it touches it", own.name, first.time_s);
+            let expected = "a longer line: an end is a point that does not move, without a terminal";
+            b.report(Problem::warning(with_key("drive.barriers", &self.barriers[number].0), found, expected));
+        }
+    }
+
+    /// Warns of crush that is deeper than the front is long, or than half of the vehicle.
     pub(super) fn warn_of_crush(&self, b: &mut Builder) {
         for (own, damage) in self.vehicles.iter().zip(&self.outcome.damage) {
+            let body = &own.car.body;
+            let half_m = |side: Side| match side {
+                Side::Front | Side::Rear => 0.5 * body.length_m,
+                Side::Left | Side::Right => 0.5 * body.width_m,
+            };
+            if let Some(dent) = damage.dents.iter().find(|dent| dent.depth_m > half_m(dent.side)) {
+                let found = format!("{} is crushed by {:.2} m, more than half of it", own.name, dent.depth_m);
+                let expected = "a milder collision or a stiffer side: what is left of it has no stiffness of its own";
+                b.report(Problem::warning(with_key("drive.vehicles", &own.name), found, expected));
+                continue;
+            }
             let front_m = own.car.body.front_m - own.car.front.ahead_m;
             if damage.front_m() > front_m {
                 let found = format!("{} is crushed by {:.2} m at its front", own.name, damage.front_m());

@@ -11,7 +11,8 @@ use super::{DrivenVehicle, Drives};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::setup::Scenery;
 
-pub(super) type Polygons = Vec<Vec<Point3<f64>>>;
+/// Convex polygons.
+pub type Polygons = Vec<Vec<Point3<f64>>>;
 
 /// Length of the road beyond the drive, m.
 const BEYOND_M: f64 = 12.0;
@@ -21,26 +22,46 @@ const ROUND: usize = 24;
 const TREAD_M: f64 = 0.16;
 const OVER_M: f64 = 0.01;
 
-/// All scenery.
-pub(crate) fn scenery(s: &Scenario, drives: &Drives) -> Vec<Scenery> {
-    let mut all = vec![Scenery { name: "road".to_owned(), frame: Frame::Space, polygons_m: road(drives) }];
+/// A part of a drive to draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// Its name: "road", "barrier NAME", "VEHICLE marks", "VEHICLE outside".
+    pub name: String,
+    /// The vehicle in whose axes it stands, forward, right, down from the compartment's origin; otherwise space: x forward, y left, z up.
+    pub vehicle: Option<usize>,
+    /// Convex polygons, m.
+    pub polygons_m: Polygons,
+}
+
+/// Road, barriers in their final state, tyre marks and the outsides of the vehicles.
+pub fn drawings(drives: &Drives) -> Vec<Drawing> {
+    let still = |name: String, polygons_m| Drawing { name, vehicle: None, polygons_m };
+    let mut all = vec![still("road".to_owned(), road(drives))];
     for (i, (name, _)) in drives.barriers.iter().enumerate() {
-        let polygons_m = super::standing::polygons(drives, i);
-        all.push(Scenery { name: format!("barrier {name}"), frame: Frame::Space, polygons_m });
+        all.push(still(format!("barrier {name}"), super::standing::polygons(drives, i)));
     }
     for (i, vehicle) in drives.vehicles.iter().enumerate() {
         let name = |what: &str| format!("{} {what}", vehicle.name);
-        all.push(Scenery { name: name("marks"), frame: Frame::Space, polygons_m: strips(drives, i) });
-        let names = std::iter::once(VEHICLE).chain(s.vehicles.keys().map(String::as_str));
-        let carried = names.into_iter().find(|name| s.driven(name) == Some(i)).and_then(|name| s.frame_named(name));
-        if let Some(frame) = carried {
-            all.push(Scenery { name: name("outside"), frame, polygons_m: outside(vehicle) });
-        }
+        all.push(still(name("marks"), strips(drives, i)));
+        all.push(Drawing { name: name("outside"), vehicle: Some(i), polygons_m: outside(vehicle) });
     }
     all
 }
 
-/// A point on the ground in space axes.
+/// All of it, in the frames of a scenario; vehicles that carry nobody are left out.
+pub(crate) fn scenery(s: &Scenario, drives: &Drives) -> Vec<Scenery> {
+    let carried = |vehicle: usize| {
+        let mut names = std::iter::once(VEHICLE).chain(s.vehicles.keys().map(String::as_str));
+        names.find(|name| s.driven(name) == Some(vehicle)).and_then(|name| s.frame_named(name))
+    };
+    let placed = |Drawing { name, vehicle, polygons_m }| {
+        let frame = vehicle.map_or(Some(Frame::Space), carried)?;
+        Some(Scenery { name, frame, polygons_m })
+    };
+    drawings(drives).into_iter().filter_map(placed).collect()
+}
+
+/// A place on the ground in space axes.
 pub(super) fn on_ground(drives: &Drives, x_m: f64, right_m: f64, over_m: f64) -> Point3<f64> {
     Point3::new(x_m, -right_m, drives.world.ground.height_m(x_m, right_m) + over_m)
 }

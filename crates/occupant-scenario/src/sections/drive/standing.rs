@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Point3;
 use vehicle_motion::barrier::{Barrier, Rail, Slider, Wall};
+use vehicle_motion::world::{Bend, Bent};
 
 use super::Drives;
 use super::scenery::{Polygons, on_ground};
@@ -24,9 +25,24 @@ pub(super) fn polygons(drives: &Drives, number: usize) -> Polygons {
         Barrier::Wall(wall) => vec![face(drives, wall)],
         Barrier::Pole(pole) => upright(drives, &round(pole.at_m, pole.radius_m), [0.0, POLE_M]),
         Barrier::Block(block) => upright(drives, &block.corners_m, [0.0, WALL_M]),
-        Barrier::Rail(rail) => of_rail(drives, number, rail),
+        Barrier::Rail(rail) => {
+            let bent = drives.outcome.rails.iter().find(|bent| bent.barrier == number);
+            of_rail(drives, rail, bent.map_or(&rail.line_m[..], |bent| &bent.line_m))
+        }
         Barrier::Slider(slider) => of_slider(drives, number, slider),
     }
+}
+
+/// Each rail while it moves: the number of its barrier, and from each time on, s, its polygons.
+pub fn moving_rails(drives: &Drives) -> Vec<(usize, Vec<(f64, Polygons)>)> {
+    let of = |bent: &Bent| match &drives.world.barriers[bent.barrier] {
+        Barrier::Rail(rail) => {
+            let at = |bend: &Bend| (bend.time_s, of_rail(drives, rail, &bend.line_m));
+            Some((bent.barrier, bent.moving.iter().map(at).collect()))
+        }
+        _ => None,
+    };
+    drives.outcome.rails.iter().filter_map(of).collect()
 }
 
 /// Corners of the outline of a pole.
@@ -63,10 +79,8 @@ fn upright(drives: &Drives, corners: &[[f64; 2]], [foot, top]: [f64; 2]) -> Poly
     (0..corners.len()).map(side).chain([roof]).collect()
 }
 
-/// The strip of a rail in its final shape, and its posts in their initial position.
-fn of_rail(drives: &Drives, number: usize, rail: &Rail) -> Polygons {
-    let bent = drives.outcome.rails.iter().find(|bent| bent.barrier == number);
-    let line = bent.map_or(&rail.line_m[..], |bent| &bent.line_m);
+/// The strip of a rail along a line, and its posts in their initial position.
+fn of_rail(drives: &Drives, rail: &Rail, line: &[[f64; 2]]) -> Polygons {
     let [low, high] = rail.band_m;
     let at = |[x, y]: [f64; 2], up: f64| on_ground(drives, x, y, up);
     let strip = |pair: &[[f64; 2]]| vec![at(pair[0], low), at(pair[1], low), at(pair[1], high), at(pair[0], high)];

@@ -39,6 +39,7 @@ fn chain(frictions: &[f64], webbing: Function, device: Device, rest: Rest) -> Ch
         friction,
         strength_n: NEVER,
         ride: Vec::new(),
+        frame: None,
     };
     let mut nodes = vec![node(0.0)];
     nodes.extend(frictions.iter().copied().map(node));

@@ -56,6 +56,7 @@ impl SelfPairs<f64> {
             let pair = Material {
                 force: series([0, 1].map(|i| (&skins[i].force, share[i]))),
                 friction: (skins[0].friction * skins[1].friction).sqrt(),
+                breaks: None,
                 friction_speed_m_s: skins[0].friction_speed_m_s.max(skins[1].friction_speed_m_s),
                 ..skins[0].clone()
             };
@@ -204,7 +205,7 @@ impl<S: Scalar> SelfPair<S> {
         }
         let (approach, weight) = (self.approach(at), S::select(live, S::one(), S::zero()));
         let meeting = approach.meeting(-normal, lever(depth, approach.radius), depth, greatest, weight);
-        let law = self.law.at(&meeting);
+        let law = self.law.at(&meeting, &[]);
         let mut touch = Touch {
             sphere: self.spheres[0],
             frame: SPACE,

@@ -169,12 +169,12 @@ impl<S: Scalar> Union<S> {
         nearest: Nearest<S>,
         live: S::Mask,
         approach: &Approach<S>,
-        greatest: S,
+        past: &[PairHistory<S>],
     ) -> Touch<S> {
         let Nearest { part, depth, normal } = nearest;
         let weight = S::select(live, S::one(), S::zero());
-        let meeting = approach.meeting(normal, lever(depth, approach.radius), depth, greatest, weight);
-        let law = self.law.at(&meeting);
+        let meeting = approach.meeting(normal, lever(depth, approach.radius), depth, past[pair].greatest, weight);
+        let law = self.law.at(&meeting, past);
         Touch {
             sphere: group.sphere,
             frame: group.frame,

@@ -135,17 +135,21 @@ pub(crate) struct CushionSection {
     pub(crate) at: [Length; 2],
     /// Outward direction of its nose, to the right of x; 180 deg if absent.
     pub(crate) facing: Option<Angle>,
+    /// "en1317-3-80" or "en1317-3-100": estimates that stop the cars of EN 1317-3 at 80 and 100 km/h. Keys that are given
+    /// replace its values; without a preset all of width, length, mass, stroke and force are needed.
+    #[schemars(extend("enum" = ["en1317-3-80", "en1317-3-100"]))]
+    pub(crate) preset: Option<String>,
     /// Width.
-    pub(crate) width: Length<POSITIVE>,
+    pub(crate) width: Option<Length<POSITIVE>>,
     /// Length.
-    pub(crate) length: Length<POSITIVE>,
+    pub(crate) length: Option<Length<POSITIVE>>,
     /// Mass that moves with the vehicle from first contact.
-    pub(crate) mass: Mass<POSITIVE>,
+    pub(crate) mass: Option<Mass<POSITIVE>>,
     /// Strokes, increasing from 0; beyond the last it acts as a wall.
-    pub(crate) stroke: Vec<Length<NOT_NEGATIVE>>,
+    pub(crate) stroke: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each stroke, linear between.
-    pub(crate) force: Vec<Force<NOT_NEGATIVE>>,
-    /// Fraction of its energy returned; 0.05 if absent.
+    pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
+    /// Fraction of its energy that is restored; 0.05 if absent.
     pub(crate) returned: Option<Ratio<FRACTION>>,
     /// Friction; 0.55 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
@@ -157,14 +161,19 @@ pub(crate) struct CushionSection {
 pub(crate) struct SignSection {
     /// Position of its support.
     pub(crate) at: [Length; 2],
+    /// "en12767-ne", "en12767-le" or "en12767-he": estimates that a car of 900 kg leaves at 100 km/h with the speed of that
+    /// category of EN 12767. Keys that are given replace its values; without a preset all of diameter, mass, stroke and
+    /// force are needed.
+    #[schemars(extend("enum" = ["en12767-ne", "en12767-le", "en12767-he"]))]
+    pub(crate) preset: Option<String>,
     /// Diameter of its support.
-    pub(crate) diameter: Length<POSITIVE>,
+    pub(crate) diameter: Option<Length<POSITIVE>>,
     /// Mass that moves with the vehicle.
-    pub(crate) mass: Mass<POSITIVE>,
+    pub(crate) mass: Option<Mass<POSITIVE>>,
     /// Displacements of its base, increasing from 0; beyond the last it is free.
-    pub(crate) stroke: Vec<Length<NOT_NEGATIVE>>,
+    pub(crate) stroke: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each displacement, linear between. The integral is the breakaway energy.
-    pub(crate) force: Vec<Force<NOT_NEGATIVE>>,
+    pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
     /// Friction; 0.55 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
 }
