@@ -1,4 +1,4 @@
-//! Which points of series 8 bound which surface of series 9: read from `compartment.toml`, not from code.
+//! Points of series 8 that bound the surfaces of series 9: read from `compartment.toml`, not from code.
 
 use std::collections::BTreeSet;
 
@@ -127,7 +127,7 @@ impl CompartmentLayout {
     /// Built-in reconstruction.
     ///
     /// # Errors
-    /// As [`CompartmentLayout::from_toml`]; a test of the crate shows that there is none.
+    /// As [`CompartmentLayout::from_toml`]; a test of the crate shows that there are none.
     pub fn reconstruction() -> Result<Self, String> {
         Self::from_toml(RECONSTRUCTION)
     }

@@ -1,4 +1,4 @@
-//! How FORTRAN IV reads one field of a card.
+//! Reading of one field of a card by the rules of FORTRAN IV.
 //!
 //! The report's formats are F10.0, F6.0, I2, I8 and I10. The rules are those of the IBM 360 compilers:
 //!
@@ -28,7 +28,7 @@ pub struct Reading {
     pub digits: String,
     /// Whether the field is blank.
     pub blank: bool,
-    /// Where the rules gave something that the eye does not see: [`Rule::EmbeddedBlanks`], [`Rule::LeftJustified`] for blanks
+    /// Rules that gave an unexpected reading: [`Rule::EmbeddedBlanks`], [`Rule::LeftJustified`] for blanks
     /// behind the last digit that were read as zeros, [`Rule::BareExponent`], [`Rule::SmallLetter`], [`Rule::Underflow`] for a
     /// number that the 360 read as zero, [`Rule::LonePoint`].
     pub surprises: Vec<Rule>,

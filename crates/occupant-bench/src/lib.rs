@@ -1,4 +1,4 @@
-//! What the benchmarks and the helper programs time: one car, one occupant, one instant with a realistic handful of touches.
+//! Case of the benchmarks and the helper programs: one car, one occupant, one instant with a realistic number of contacts.
 //!
 //! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
 //! (all 17 × 25 contact pairs as well).

@@ -136,7 +136,7 @@ impl About {
 /// a value that is no number.
 ///
 /// # Errors
-/// Histories of other lengths than their times; what the writer refuses, in its words.
+/// Histories whose lengths differ from that of their times; an error of the writer, with its text.
 pub fn table(histories: &Histories, about: &About, units: UnitChoice, form: Form) -> io::Result<Vec<u8>> {
     histories.check().map_err(|found| io::Error::new(io::ErrorKind::InvalidInput, found))?;
     let is_read = matches!(form, Form::Csv | Form::Xlsx);

@@ -38,7 +38,7 @@ pub struct Results {
     lost: Option<String>,
     /// Defects of the file.
     flaw: Option<String>,
-    /// How the run ended.
+    /// End of the run.
     status: RunStatus,
     /// The reason, if it did not complete.
     reason: Option<String>,

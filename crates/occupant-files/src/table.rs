@@ -152,7 +152,7 @@ impl<W: Write + Send> Table<W> {
     /// Begins a table; `about` is in the metadata of a Parquet file.
     ///
     /// # Errors
-    /// Two columns of one name; what the writer refuses.
+    /// Two columns with one name; an error of the writer.
     pub fn new(to: W, form: Form, columns: &[(impl AsRef<str>, Kind)], about: &[(&str, String)]) -> io::Result<Self> {
         let mut names = std::collections::HashSet::new();
         if let Some((name, _)) = columns.iter().find(|(name, _)| !names.insert(name.as_ref())) {
@@ -173,7 +173,7 @@ impl<W: Write + Send> Table<W> {
     /// Adds a row with a cell per column, of the column's type.
     ///
     /// # Errors
-    /// More or fewer cells than columns; a text among numbers; what the writer refuses.
+    /// More or fewer cells than columns; a text among numbers; an error of the writer.
     pub fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
         if cells.len() != self.kinds.len() {
             let found = format!("a row of {} cells in a table of {} columns", cells.len(), self.kinds.len());
@@ -210,7 +210,7 @@ impl<W: Write + Send> Table<W> {
     /// Ends the table and returns its target.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// An error of the writer.
     pub fn finish(mut self) -> io::Result<W> {
         self.flush()?;
         match self.writer {
@@ -344,7 +344,7 @@ impl TableFile {
     /// Renames the complete file.
     ///
     /// # Errors
-    /// What the writer or an error of the operating system.
+    /// An error of the writer or of the operating system.
     pub fn publish(self) -> Result<PathBuf, Failure> {
         let file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
         file.publish().map_err(|e| broke_off(&e))

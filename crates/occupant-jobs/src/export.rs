@@ -39,7 +39,7 @@ impl TableFiles {
     /// Writes the table and renames the files.
     ///
     /// # Errors
-    /// What the writer or the file system refuses.
+    /// An error of the writer or the file system.
     pub fn write(mut self, histories: &Histories, about: &About, units: UnitChoice) -> Result<(), Failure> {
         let bytes = table(histories, about, units, self.form)
             .map_err(|error| Failure::plain(format!("{} cannot be made: {error}", self.path.display())))?;
@@ -69,7 +69,7 @@ fn beside(table: &Path) -> PathBuf {
 /// Writes the files of an ISO-MME test into a temporary folder, renamed when complete.
 ///
 /// # Errors
-/// A folder that exists and may not be replaced or holds something else; what the file system refuses.
+/// A folder that exists and may not be replaced or holds something else; an error of the file system.
 pub fn publish_folder(folder: &Path, test: &str, files: &[(PathBuf, String)], force: bool) -> Result<(), Failure> {
     let place = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let is_there = || fs::symlink_metadata(&place).is_ok();

@@ -162,7 +162,7 @@ mod tests {
         }
     }
 
-    /// Left, right, top and bottom of what is dark.
+    /// Left, right, top and bottom of the dark area.
     fn extent(body: &str) -> [u32; 4] {
         let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">{body}</svg>"#);
         let picture = pixels(&svg);

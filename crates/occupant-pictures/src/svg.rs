@@ -39,7 +39,7 @@ pub struct Text<'a> {
     pub fill: &'a str,
     /// Anchor.
     pub anchor: Anchor,
-    /// How bold.
+    /// Font weight.
     pub weight: Weight,
     /// Rotation about the anchor, degrees clockwise.
     pub turn_deg: f64,

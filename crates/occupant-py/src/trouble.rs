@@ -1,4 +1,4 @@
-//! What goes wrong, as exceptions.
+//! Errors as exceptions.
 
 use occupant_scenario::Diagnostics;
 use placed_text::Severity;

@@ -8,7 +8,7 @@ use placed_text::Severity;
 
 pub use occupant_core::results::energy::{Balance, EnergyCheck};
 
-/// How one of many runs ended.
+/// End of one of many runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
     /// It reached its end time with its energy in balance to 10 %.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use placed_text::Value;
 
-/// Which units bare numbers have.
+/// Units of bare numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub enum UnitSystem {
     /// Metre, kilogram, second; angles in degrees.
@@ -37,7 +37,7 @@ pub struct Kind {
     pub noun: &'static str,
     /// Its SI unit.
     pub unit: Unit,
-    /// How it may be written.
+    /// Permitted notation.
     pub example: &'static str,
 }
 

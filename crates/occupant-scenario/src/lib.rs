@@ -11,7 +11,7 @@
 //! - `sections`: one file for each concept: its keys, and their conversion to plain data;
 //! - `expand`, `overrides`, `places`: presets and groups written out, values set and found by path.
 //!
-//! What it never does: read files, print, or compute anything that a run computes.
+//! It never reads files, prints, or computes anything that a run computes.
 //!
 //! ```text
 //! `path.speed = "20 mph"` ─ Value ─ 8.9408 m/s in the tree ─ Quantity ─ PulseDefinition

@@ -118,7 +118,7 @@ pub(super) fn muscles(sources: &mut Sources, occupant: &Node) -> Option<Entry> {
     Some(muscles)
 }
 
-/// Adds the volunteers' trigger to an explicit scenario, if somebody in `root` uses it.
+/// Adds the volunteers' trigger to an explicit scenario, if an occupant in `root` uses it.
 pub(super) fn feel(sources: &mut Sources, root: &Node, explicit: &mut Table) -> Option<()> {
     let asks = |own: &Node| is_volunteer(own) && own.get("muscles").and_then(|said| said.get("trigger")).is_none();
     if !(asks(root) || occupants(root).any(asks)) {

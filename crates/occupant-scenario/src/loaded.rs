@@ -107,7 +107,7 @@ impl Loaded {
     /// The model of the scenario, ready to be run, with warnings.
     ///
     /// # Errors
-    /// As [`Loaded::build`], and everything the model refuses; warnings are among them.
+    /// As [`Loaded::build`], and all problems of the model, including warnings.
     pub fn model(&self) -> Result<(Model, Diagnostics), Diagnostics> {
         let (setup, mut diagnostics) = self.build()?;
         match Model::new(setup) {

@@ -67,7 +67,7 @@ const NO_KEY: &str = "no such key, so that the scenario gives it; or \"made_up\"
 /// Reads the surface files referred to by materials of an explicit scenario, and merges them below these materials.
 ///
 /// # Errors
-/// Files that cannot be read, what is wrong in them, and what was not measured and the scenario does not say.
+/// Unreadable files, problems in them, and values neither measured nor given by the scenario.
 pub(super) fn lay(document: &mut Document, explicit: &mut Scenario, resolver: Resolver) -> Result<(), Diagnostics> {
     let named = |(name, material): (&String, &MaterialSection)| Some((name.clone(), material.file.clone()?));
     let named: Vec<(String, String)> = explicit.materials.iter().filter_map(named).collect();

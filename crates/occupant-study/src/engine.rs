@@ -36,7 +36,7 @@ pub const MOST_THREADS: usize = 64;
 pub trait Source: Sync {
     /// Receives the results of one run.
     type Recorder: Recorder;
-    /// What is kept of a run.
+    /// Data kept of a run.
     type Row: Send;
     /// An error that ends all runs, such as a full disk.
     type Error: From<Unrecorded> + Send;
@@ -50,13 +50,13 @@ pub trait Source: Sync {
     /// The row of a run that has ended.
     ///
     /// # Errors
-    /// What ends all runs.
+    /// An error that ends all runs.
     fn end(&self, run: Finished<Self::Recorder>) -> Result<Self::Row, Self::Error>;
 
-    /// Puts away what a run was recorded with that was stopped on its way; it has no row.
+    /// Discards the recorder of an interrupted run, which has no row.
     ///
     /// # Errors
-    /// What ends all runs.
+    /// An error that ends all runs.
     fn stopped(&self, _recorder: Self::Recorder) -> Result<(), Self::Error> {
         Ok(())
     }
@@ -82,7 +82,7 @@ impl<E> From<Diagnostics> for NotBegun<E> {
 pub struct Finished<R> {
     /// Its index.
     pub index: u64,
-    /// How it ended.
+    /// Outcome.
     pub ending: Ending,
     /// Wall time since its start, s.
     pub wall_time_s: f64,

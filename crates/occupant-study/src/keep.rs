@@ -57,7 +57,7 @@ impl Keep {
     /// The choice that a section describes.
     ///
     /// # Errors
-    /// What was found that says nothing.
+    /// The invalid text found.
     pub(super) fn read(section: &KeepSection) -> Result<Keep, String> {
         match section {
             KeepSection::Words(words) => {

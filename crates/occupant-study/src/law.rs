@@ -1,4 +1,4 @@
-//! How the values of one parameter are spread: levels to go through, or a distribution to draw from.
+//! Law of the values of one parameter: a list of levels, or a distribution.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

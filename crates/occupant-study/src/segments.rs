@@ -1,4 +1,4 @@
-//! How heavy each segment of a body is, as uncertain as tables of people are.
+//! Masses of the segments of a body, with the uncertainty of anthropometric tables.
 //!
 //! Two generations of anthropometry differ by 10 to 20 % in the mass of a limb of a person of the same size, so that
 //! ±15 % a segment is what a study of a person's body has to allow for. Left and right are alike in every person;

@@ -120,7 +120,7 @@ fn sorted(values: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// The value below which a part `p` of the numbers lies, straight lines between them: x at place (n − 1)p, which is
+/// Quantile `p` of the numbers, by linear interpolation between them: x at place (n − 1)p, which is
 /// definition 7 of R. J. Hyndman, Y. Fan, "Sample quantiles in statistical packages", American Statistician 50 (1996),
 /// and what NumPy does. None without numbers.
 pub fn quantile(values: &[f64], p: f64) -> Option<f64> {

@@ -1,4 +1,4 @@
-//! Which of several words was meant by a misspelt one.
+//! Nearest of several words to a misspelt one.
 
 /// The candidate most like `word`, if any is near enough to be meant: at most a third of the letters differ, or only
 /// upper and lower case. The first of several equally near ones; else the only one that contains the word; else the

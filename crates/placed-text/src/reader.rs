@@ -1,4 +1,4 @@
-//! What the readers of TOML and JSON share: the text under reading and a list for what is wrong with it.
+//! Common part of the readers of TOML and JSON: the text and a list of its problems.
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::node::{Node, Value};

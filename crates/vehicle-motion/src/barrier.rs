@@ -59,7 +59,7 @@ pub struct Slider {
     pub force_n: Vec<[f64; 2]>,
     /// Share of the energy returned.
     pub returned: f64,
-    /// What happens at the end of the force's table.
+    /// Behaviour beyond the end of the force's table.
     pub end: End,
     /// Friction.
     pub friction: f64,

@@ -230,7 +230,7 @@ impl Hull {
         }
     }
 
-    /// What the ground does.
+    /// Action of the ground.
     pub fn rub(&self, state: &State, chassis: &Chassis, steer: [f64; 4], memory: &HullMemory, ground: &Ground) -> Rub {
         let pose = state.pose();
         let mut sum = Rub::default();

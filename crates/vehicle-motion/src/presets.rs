@@ -7,7 +7,7 @@ use crate::car::{Axle, Car, Class, RIDE};
 use crate::{GRAVITY_M_S2, V3};
 use nalgebra::Matrix3;
 
-/// How well a number is known, best first.
+/// Reliability of a number, best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Evidence {
     /// Published for this vehicle.

@@ -12,7 +12,7 @@ impl Deck {
     /// Deck that extends the run of this one from its end to `final_s`: NPOS = 1, series 6 and 14 in place of seating.
     ///
     /// # Errors
-    /// What a reader would refuse in it, such as a final time beyond the last station of the path.
+    /// Problems of the resulting deck, such as a final time beyond the last station of the path.
     pub fn extended(&self, end: &RunEnd, final_s: f64) -> Result<Deck, Diagnostics> {
         let cards = self.cards().iter().filter(|card| ![4, 10].contains(&card.id.series));
         let cards = cards.map(|card| DeckCard { line: None, raw: None, ..card.clone() });

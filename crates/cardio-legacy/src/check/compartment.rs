@@ -16,7 +16,7 @@ const EQUALITIES: [&[&str]; 7] = [
     &["XV(6)", "XV(7)", "XV(22)"],
 ];
 const TOLERANCE_IN: f64 = 1e-6;
-/// A point of a car's compartment lies no further from its centre of gravity.
+/// Largest distance of a point of a car's compartment from its centre of gravity.
 const FARTHEST_IN: f64 = 200.0;
 /// No car is wider to each side.
 const WIDEST_IN: f64 = 60.0;

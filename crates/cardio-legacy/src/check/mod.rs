@@ -34,7 +34,7 @@ struct Check<'a> {
     sink: &'a mut Sink,
 }
 
-/// A problem, if there is one, of which remains to be said what was expected and how to mend it.
+/// A problem, if any, whose expectation and remedy are still to be set.
 #[must_use = "without `expected` nothing is reported"]
 struct Pending<'a> {
     sink: &'a mut Sink,

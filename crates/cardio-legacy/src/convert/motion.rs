@@ -1,4 +1,4 @@
-//! Where the occupant is at the start (series 4 and 10, or 6), and the belts (series 13).
+//! Initial position of the occupant (series 4 and 10, or 6), and the belts (series 13).
 
 use super::DeckSeating;
 use super::compartment::passed_pair;

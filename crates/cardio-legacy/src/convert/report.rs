@@ -1,4 +1,4 @@
-//! What a conversion assumed, left away and counted.
+//! Assumptions, omissions and counts of a conversion.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What is printed: the recorded run, and the model rebuilt from the scenario that travels with it.
+//! Input of a printout: the recorded run, and the model rebuilt from its attached scenario.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! How well a computed signal follows a measured one.
+//! Agreement of a computed with a measured signal.
 //!
 //! Every rating takes the measured signal first (the reference) and the computed one second, equally
 //! long and equally spaced, synchronised, filtered alike. None of the procedures' own texts was read:

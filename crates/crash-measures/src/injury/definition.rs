@@ -1,4 +1,4 @@
-//! What a measure is: what it is called, how it is made, what it is judged by.
+//! Definition of a measure: its name, computation and limits.
 
 use super::readings::Readings;
 use super::{Filtering, Measure, Risk};

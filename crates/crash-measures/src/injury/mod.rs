@@ -133,7 +133,7 @@ pub struct Judgement {
 /// The probability of an injury.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Risk {
-    /// Which injury, such as `head AIS3+`.
+    /// Injury, such as `head AIS3+`.
     pub injury: &'static str,
     /// 0 to 1.
     pub probability: f64,

@@ -6,7 +6,7 @@
 use super::{Peak, peak::largest_magnitude};
 use crate::signal::SignalError;
 
-/// Which set of critical angular velocities.
+/// Set of critical angular velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum BricBasis {
     /// Average of the other two: the usual one.

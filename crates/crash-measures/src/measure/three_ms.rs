@@ -94,7 +94,7 @@ fn clip(values: &[f64], dt_s: f64, duration_s: f64, counting: Counting) -> Resul
     Ok(ThreeMs { level_mps2: level, start_s: interval.start_s, end_s: interval.end_s })
 }
 
-/// Highest level in [lower, upper) held for `needed_s`, where no sample lies between the two.
+/// Highest level in [lower, upper) held for `needed_s`, with no sample between the two.
 fn solve_between(values: &[f64], dt_s: f64, needed_s: f64, lower: f64, upper: f64, counting: Counting) -> f64 {
     let middle = 0.5 * (lower + upper);
     let mut level = lower;

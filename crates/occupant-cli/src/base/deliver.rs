@@ -16,7 +16,7 @@ pub(crate) fn deliver(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Fail
 /// As [`deliver`]; with `open` the system's default program then opens the file.
 ///
 /// # Errors
-/// As [`publish`]. That it cannot be opened is said, and no failure.
+/// As [`publish`]. Failure to open it is reported, without an error.
 pub(crate) fn deliver_and(open: bool, path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     publish(path, force, bytes)?;
     said_and_opened(open, path);

@@ -118,7 +118,7 @@ fn is_table(source: &Path) -> bool {
 /// A low-pass filter as text.
 ///
 /// # Errors
-/// What is none.
+/// The invalid value.
 pub(super) fn filter(text: &str) -> Result<PathFilter, String> {
     let word = text.trim().to_ascii_lowercase();
     match word.strip_prefix("cfc").unwrap_or(&word).trim() {

@@ -190,7 +190,7 @@ fn beside(runs: &[(PathBuf, Summary, Units)]) -> Result<(), Failure> {
     print(&format!("{}\n{table}\n{}", names.collect::<String>(), caveats.collect::<String>()))
 }
 
-/// How a scenario ended, its summary, and the units of its tables.
+/// End of a scenario, its summary, and the units of its tables.
 fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let chosen = chosen(args);
     let source = scenario::source(&chosen)?;

@@ -4,7 +4,7 @@ use super::tree::{JointRow, Place, SphereRow};
 use super::{Body, ContactSphere, Joint, Plate, Ride, Segment, Tree};
 
 impl Body {
-    /// The same with `root` for its first segment, without the segments `left_out` and what hangs on them as seen from there.
+    /// The same with `root` for its first segment, without the segments `left_out` and those distal to them.
     /// Segments are numbered from the root outwards; joints, spheres and landmarks keep their names and their order. Plates
     /// stay where all of their segments do, else none. A root that is none of the body's changes nothing.
     pub fn hung_on(&self, root: Segment, left_out: &[Segment]) -> Body {
@@ -77,7 +77,7 @@ mod tests {
         assert!(body.tree.joint_rows().iter().all(|row| !row.is_reversed()));
     }
 
-    /// Standing, a body looks the same from whichever segment it hangs, and laws still know what is proximal.
+    /// A body has the same position with any root segment, and laws keep their proximal and distal segments.
     #[test]
     fn the_way_to_a_mount_turns_joints_round() {
         let whole = Body::male50();

@@ -506,7 +506,7 @@ mod tests {
         })
     }
 
-    /// What 15 and 17 segments weigh and where their centre of gravity is, the 12 made of them have too.
+    /// Bodies of 15 and 17 segments have the mass and centre of gravity of the 12 segments.
     #[test]
     fn a_body_of_more_segments_is_the_same_body() {
         for name in ["female05", "male50", "male95", "child06", "child10"] {

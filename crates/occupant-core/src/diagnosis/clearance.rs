@@ -1,4 +1,4 @@
-//! What stands before head, chest and knees and over the head at the start, and how far away.
+//! Nearest surfaces in front of head, chest and knees and above the head at the start, with their distances.
 
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! What will be simulated and whether the step suits it: the answer of `occupant check`.
+//! Model and suitability of the step: the output of `occupant check`.
 //!
 //! All figures are those of the start of the run. Ours; the report prints the seating only.
 

@@ -1,4 +1,4 @@
-//! How belts lie on shoulders: where webbing that pulls comes to lie, seen from the posture at the start.
+//! Position of belts on shoulders: where loaded webbing settles, from the initial posture.
 
 use serde::Serialize;
 

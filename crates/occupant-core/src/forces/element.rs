@@ -138,7 +138,7 @@ pub trait Element: Copy + Debug {
         S::zero()
     }
 
-    /// Where any of them has switched between two memories of all.
+    /// Lanes where any element has switched between two memories of all.
     #[inline(always)]
     fn any_switched<S: Scalar>(before: &[Self::Past<S>], now: &[Self::Past<S>]) -> S::Mask {
         before.iter().zip(now).fold(S::truth(false), |mask, (before, now)| {
@@ -147,7 +147,7 @@ pub trait Element: Copy + Debug {
         })
     }
 
-    /// Fraction of the way between `before` and `now`, at the times `times_s`, at which the first switch of the element
+    /// Fraction of the interval between `before` and `now`, at the times `times_s`, at which the first switch of the element
     /// with this number was due; none if unknown. Up to 0 it was due before.
     fn due<S: Scalar<Mask = bool>>(
         _law: &Self::Law<S>,

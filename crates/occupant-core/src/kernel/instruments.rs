@@ -33,7 +33,7 @@ const POINTS: [&str; 4] = ["upper_left", "upper_right", "lower_left", "lower_rig
 /// What the instruments of one body read at one instant, SI. In SAE J211 axes of the segments: what accelerometers of head,
 /// chest and pelvis read, angular velocity and acceleration of the head, force and moment of the neck on the head at the
 /// condyles; tension of the right and the left femur; then the centre of the head's sphere in axes of the body's home, and the
-/// deflections of a chest, m. No numbers of what a body lacks.
+/// deflections of a chest, m. NaN for what a body lacks.
 pub(crate) type Reading<S> = [S; READINGS];
 
 /// Instruments of a body.

@@ -60,7 +60,7 @@ pub struct Start {
     pub seated: Option<Seated>,
     /// Outcome of settling, if it was asked for.
     pub settled: Option<Settled>,
-    /// What is left over of a seated body that was not to settle.
+    /// Remaining load on a seated body without settling.
     pub unsettled: Option<Settled>,
 }
 

@@ -1,4 +1,4 @@
-//! How the body starts: posture, place and velocity, as data.
+//! Initial state of the body: posture, position and velocity, as data.
 //!
 //! Report: "Initial Position of Passenger", Figs 19 and 20.
 

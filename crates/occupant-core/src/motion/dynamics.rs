@@ -91,8 +91,8 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 
-    /// As [`solve`], with the forces along their axes on the point masses that slide, Q − S; among `frames` a guided root accelerates as what carries it, which adds the power that comes back to that
-    /// of vehicles, W.
+    /// As [`solve`], with the forces Q − S on the sliding point masses along their axes; with `frames`, a guided root
+    /// accelerates with its mount, which adds the reaction power to that of vehicles, W.
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,

@@ -1,4 +1,4 @@
-//! How the body moves: numbers and vectors, state, kinematics, dynamics, integrators.
+//! Motion of the body: numbers and vectors, state, kinematics, dynamics, integrators.
 
 pub(crate) mod articulated;
 pub(crate) mod closed;

@@ -1,4 +1,4 @@
-//! How a run ended: its outcome, first contacts, and errors with time, place and reason.
+//! Outcome of a run: its end, first contacts, and errors with time, location and reason.
 
 use crate::results::checkpoint::CheckpointError;
 use crate::results::energy::EnergyCheck;

@@ -88,7 +88,7 @@ pub(crate) fn carried_by_mount(sample: &Sample<'_>) -> Option<Reaction> {
 
 /// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the
 /// contact spheres at that end and elements on them pull along the thigh. The thigh's own mass beyond a load cell in its middle
-/// is not taken off. No number of what is no thigh.
+/// is not taken off. NaN for other segments.
 ///
 /// Spheres in the distal half of the thigh count as at the knee.
 pub fn femur_axial_n(sample: &Sample<'_>, thigh: Segment) -> f64 {

@@ -2,7 +2,7 @@
 //!
 //! Error control notices that a step contains a corner, but not where: it shortens steps until one is short enough to
 //! pass over it. A trial gives more information: the contacts at its start and at its end, with their depth and speed.
-//! So the corner is located, the step ends just behind it, and the next one begins on the other side.
+//! Therefore the kink is located, the step ends just behind it, and the next one begins on the other side.
 
 use super::Step;
 use crate::forces::History;

@@ -54,7 +54,7 @@ impl Attitude {
         Attitude { roll_rad, pitch_rad, yaw_rad }.unwrapped_after(near)
     }
 
-    /// The same attitude, told with the roll, pitch and yaw that are nearest to those of `previous`.
+    /// The same attitude with roll, pitch and yaw nearest to those of `previous`.
     ///
     /// An attitude has many names: whole turns may be added to each angle, and (φ + π, π − θ, ψ + π) is the same
     /// attitude as (φ, θ, ψ). The second matters for a vehicle that pitches past the vertical.

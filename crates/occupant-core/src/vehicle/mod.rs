@@ -1,4 +1,4 @@
-//! Where the vehicle is and how it moves (report, "The Path of the Vehicle in Space", Eqs 78 to 83).
+//! Position and motion of the vehicle (report, "The Path of the Vehicle in Space", Eqs 78 to 83).
 //!
 //! The path is prescribed: the occupant never pushes the vehicle, which acts only through the positions and velocities
 //! of its surfaces and belt anchors. A [`VehiclePath`] is built and checked once. At every stage of every integration

@@ -50,7 +50,7 @@ impl AfterEnd {
     /// Whether a path given from `first_s` to `last_s` has an answer from `start_s` to `end_s`.
     ///
     /// # Errors
-    /// A run that starts before the first time, or ends past the last one without being told what comes after.
+    /// A run that starts before the first time, or ends after the last one without a motion given beyond it.
     pub(super) fn check_span(self, (first_s, last_s): (f64, f64), start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         let slack_s = TIME_SLACK * (last_s - first_s);
         if start_s < first_s - slack_s {

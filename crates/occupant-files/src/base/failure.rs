@@ -1,4 +1,4 @@
-//! How a command ends: done, or why it could not do its work. Each end has its exit code.
+//! End of a command: success, or the reason of its failure. Each has its exit code.
 
 use std::fmt::Display;
 use std::path::Path;

@@ -74,7 +74,7 @@ pub fn deck(path: &Path) -> Result<Vec<u8>, Failure> {
 /// Refuses a scenario text that is too long.
 ///
 /// # Errors
-/// How long it is, and how long it may be.
+/// Its length, and the permitted length.
 pub fn scenario_fits(bytes: &[u8]) -> io::Result<()> {
     within(bytes.len() as u64, MOST_OF_SCENARIO)
 }

@@ -58,7 +58,7 @@ impl Schemas {
     /// A channel of a Foxglove type.
     ///
     /// # Errors
-    /// What the writer reports.
+    /// An error of the writer.
     pub fn add_foxglove(&self, writer: &mut Writer<impl Write + Seek>, topic: &str, name: &str) -> McapResult<Channel> {
         add(writer, topic, &format!("foxglove.{name}"), &self.foxglove(name), &BTreeMap::new())
     }
@@ -66,7 +66,7 @@ impl Schemas {
     /// A channel of a catalogue message; its metadata describe each field.
     ///
     /// # Errors
-    /// What the writer reports.
+    /// An error of the writer.
     pub fn add(&self, writer: &mut Writer<impl Write + Seek>, message: &Message) -> McapResult<Channel> {
         let fields = message.fields.iter().map(|f| described(f.number, &f.name, f.kind));
         let schema = descriptor::set(&descriptor::file(PACKAGE, message.name, fields.collect(), None), &self.library);

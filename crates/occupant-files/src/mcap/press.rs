@@ -61,7 +61,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     /// Ends the chunk and hands it over.
     ///
     /// # Errors
-    /// What the target reported since the last chunk.
+    /// An error of the target since the last chunk.
     pub fn end_chunk(&mut self) -> McapResult<()> {
         self.batch.ends_chunk = true;
         if self.thread.is_none() {
@@ -73,7 +73,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     /// The writer, after all data handed over have been written.
     ///
     /// # Errors
-    /// What the target reported.
+    /// An error of the target.
     pub fn home(&mut self) -> McapResult<&mut Writer<W>> {
         let handed_over = self.hand_over();
         let written = self.wait();

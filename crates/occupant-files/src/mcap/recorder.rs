@@ -74,7 +74,7 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
     /// Begins a file in `target`, which should be buffered.
     ///
     /// # Errors
-    /// What `target` reports.
+    /// An error of `target`.
     pub fn new(target: W, about: About, options: McapOptions) -> McapResult<Self> {
         let writer = WriteOptions::new()
             .profile("")

@@ -461,7 +461,7 @@ mod tests {
     use super::*;
     use crate::signals::scale_of;
 
-    /// The whole of what is recorded counts, whichever signal stands first.
+    /// The whole record counts, whichever signal is first.
     #[test]
     fn what_a_shorter_signal_lacks_is_told() {
         let signal = |name: &str, count: usize| Signal {
@@ -483,7 +483,7 @@ mod tests {
         }
     }
 
-    /// Two columns of one name are one quantity in two units, or somebody wrote a heading twice.
+    /// Two columns with one name are one quantity in two units, or a duplicate heading.
     #[test]
     fn a_heading_that_stands_twice_is_said() {
         let signal = |unit: &str, value: f64| Signal {

@@ -80,7 +80,7 @@ pub(super) fn header(path: &Path) -> Option<PathBuf> {
 /// Reads a test by its header file; `vehicle` is the selected one.
 ///
 /// # Errors
-/// Files that cannot be read, and what is wrong in them.
+/// Unreadable files, and problems in them.
 pub(super) fn read(header: &Path, vehicle: u32) -> Result<(TestRecord, Recording), Failure> {
     let bytes = input_file::read(header)?;
     let text = text_of(bytes.clone());

@@ -40,7 +40,7 @@ enum Property {
 /// Reads a file.
 ///
 /// # Errors
-/// What cannot be read, and what is wrong in it.
+/// Unreadable parts, with their problems.
 pub(super) fn read(path: &Path) -> Result<Recording, Failure> {
     let bytes = input_file::read(path)?;
     let objects = objects(&bytes).map_err(|found| Trouble::of(path, found, "a TDMS file of numbers"))?;

@@ -81,7 +81,7 @@ struct Found {
 /// absent), with its axes; none if the file has none.
 ///
 /// # Errors
-/// What cannot be read, and what is wrong in it.
+/// Unreadable parts, with their problems.
 pub(super) fn read(
     path: &Path,
     vehicle: Option<u32>,

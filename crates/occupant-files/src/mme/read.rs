@@ -11,7 +11,7 @@ use crate::trouble::Trouble;
 /// Reads a test by its folder or its .mme file.
 ///
 /// # Errors
-/// Files that are missing or cannot be read, and what is wrong in them.
+/// Missing and unreadable files, and problems in them.
 pub fn read(path: &Path) -> Result<Recording, Failure> {
     let mme = if path.is_dir() { the_mme_in(path)? } else { path.to_owned() };
     // the test's file itself holds nothing that signals need

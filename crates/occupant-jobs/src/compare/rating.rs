@@ -1,4 +1,4 @@
-//! How well a computed history follows a measured one: ISO/TS 18571, CORA, Sprague–Geers and ANOVA of one pair.
+//! Agreement of a computed with a measured history: ISO/TS 18571, CORA, Sprague–Geers and ANOVA of one pair.
 
 use crash_measures::correlation::{CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers};
 use crash_measures::signal::{Interpolant, Interpolation, whole_steps};

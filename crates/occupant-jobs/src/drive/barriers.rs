@@ -132,7 +132,7 @@ pub(super) fn text(all: &[Met], units: Units) -> String {
     table.text()
 }
 
-/// How far the numbers of barriers can be trusted.
+/// Reliability of the numbers of barriers.
 pub(super) fn evidence(all: &[Met]) -> Vec<(&'static str, Evidence, &'static str)> {
     let rows = [
         (

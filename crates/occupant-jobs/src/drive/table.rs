@@ -91,7 +91,7 @@ pub fn columns() -> Vec<Column> {
 /// gravity.
 ///
 /// # Errors
-/// What the writer reports.
+/// An error of the writer.
 pub fn write(
     path: &Path,
     form: Form,

@@ -127,7 +127,7 @@ fn risk(driven: &Driven, units: Units) -> String {
     table.text()
 }
 
-/// How well the values are known.
+/// Reliability of the values.
 fn evidence(drives: &Drives, driven: &Driven) -> String {
     let own = &drives.vehicles[driven.number];
     let mut table = Table::new(&[(Align::Left, &["number", "trust", "source"])]);

@@ -1,4 +1,4 @@
-//! Which figures of an ensemble may be quoted as one number.
+//! Results of an ensemble that may be quoted as one number.
 
 use occupant_study::spread::{Rule, Spread, Verdict};
 use serde::Serialize;

@@ -128,7 +128,7 @@ pub struct ParameterEstimate {
     pub alone: [f64; 2],
     /// Least and largest value among the evaluated sets that are equally good.
     pub near_optimal: [f64; 2],
-    /// How well it is identified.
+    /// Identifiability.
     pub verdict: Verdict,
     /// The verdict as text.
     pub words: String,
@@ -180,7 +180,7 @@ pub struct Evaluations {
     pub intervals: usize,
     /// All, including the base scenario.
     pub all: usize,
-    /// Those that could not be run.
+    /// Trials that could not be run.
     pub failed: usize,
     /// Reason of the first failure.
     pub reason: Option<String>,

@@ -1,4 +1,4 @@
-//! How well each parameter is identified, from the ends of its interval.
+//! Identifiability of each parameter, from the ends of its interval.
 
 use occupant_study::search::End;
 use occupant_study::{ApplyChoice, Bounds, Value};
@@ -15,7 +15,7 @@ const EVERYTHING: f64 = 0.8;
 /// Distance to a bound that counts as being at it.
 const AT: f64 = 1e-3;
 
-/// How well a parameter is identified.
+/// Identifiability of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {

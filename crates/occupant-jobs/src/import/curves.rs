@@ -11,7 +11,7 @@ use occupant_files::table::{Cell, Form, Kind, Table};
 /// The table as CSV: a column of times, and one for each signal with its unit in its heading.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub(super) fn table(signals: &[&Signal]) -> Result<Vec<u8>, Failure> {
     let time_s = signals.iter().max_by_key(|signal| signal.time_s.len()).map_or(&[][..], |signal| &signal.time_s);
     let columns: Vec<(String, Vec<f64>)> = signals.iter().map(|s| (heading(&s.name, s), at(s, time_s))).collect();
@@ -21,7 +21,7 @@ pub(super) fn table(signals: &[&Signal]) -> Result<Vec<u8>, Failure> {
 /// The table of these columns.
 ///
 /// # Errors
-/// What the writer refuses.
+/// An error of the writer.
 pub(super) fn written(time_s: &[f64], columns: &[(String, Vec<f64>)]) -> io::Result<Vec<u8>> {
     let mut heads = vec![("t[s]".to_owned(), Kind::Number)];
     heads.extend(columns.iter().map(|(name, _)| (name.clone(), Kind::MaybeNumber)));

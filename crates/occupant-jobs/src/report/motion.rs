@@ -24,7 +24,7 @@ pub struct Motion {
     poses: Array,
     /// Displacements of the spheres of `ridden` by deformable parts: x, y, z, axes of their segments.
     carried: Array,
-    /// Those spheres (indices).
+    /// Spheres (indices).
     ridden: Vec<usize>,
     /// Poses of the vehicle in vehicle-space: Y right, Z down.
     vehicle: Array,

@@ -213,7 +213,7 @@ mod tests {
     use super::*;
     use crate::files::scenario::{ScenarioArgs, open};
 
-    /// What surfaces and belts took up is what the ledger has of contacts and belts, however it is cut into pieces.
+    /// The energy absorbed by surfaces and belts equals that of contacts and belts in the ledger, for any division into parts.
     #[test]
     fn works_add_up_to_the_ledger() {
         for (name, overrides) in [

@@ -234,7 +234,7 @@ pub(super) fn unit_of(quantity: Quantity, units: Option<UnitSystem>) -> Unit {
     }
 }
 
-/// Where a limit was read, as text.
+/// Source of a limit, as text.
 pub fn basis_name(basis: Basis) -> &'static str {
     match basis {
         Basis::SecondarySource => "a source that quotes the rule",

@@ -19,7 +19,7 @@ use occupant_files::mcap::records::{Frame, Record};
 use occupant_files::mcap::{checkpoint, wire};
 use occupant_files::results::Results;
 
-/// Mutations of each of the two files; more, where somebody asks for them.
+/// Mutations of each of the two files; more on request.
 fn mutations() -> u64 {
     std::env::var("OCCUPANT_MUTATIONS").ok().and_then(|n| n.parse().ok()).unwrap_or(60)
 }
@@ -37,7 +37,7 @@ fn recorded(folder: &Path, end: &str) -> Vec<u8> {
     fs::read(file).unwrap()
 }
 
-/// The same file without chunks, index and checksums: every flip reaches what it hits.
+/// The same file without chunks, index and checksums: every flipped bit reaches its field.
 fn bare(bytes: &[u8]) -> Vec<u8> {
     let mut bare = mcap::MAGIC.to_vec();
     let mut at = bare.len();

@@ -44,7 +44,7 @@ impl Resumption {
     /// Reads `file` and finds the last checkpoint shared with a run of the scenario.
     ///
     /// # Errors
-    /// A file that cannot be read or holds no checkpoint; another scenario; an end that lies not after the file's.
+    /// A file that cannot be read or holds no checkpoint; another scenario; an end that is not after the file's.
     pub fn find(file: &Path, opened: &Opened) -> Result<Self, Failure> {
         let name = file.display();
         let bytes =
@@ -82,7 +82,7 @@ impl Resumption {
         .into()
     }
 
-    /// Reports where the run continues, and what the summary leaves out.
+    /// Reports where the run continues, and the omissions of the summary.
     pub fn announce(&self) {
         let (file, at_s) = (self.file.display(), self.checkpoint.time_s);
         say(&format!("resumed {file} at t = {} s", number(at_s)));

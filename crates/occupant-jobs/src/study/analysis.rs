@@ -1,4 +1,4 @@
-//! What a table of samples says of one response.
+//! Analysis of one response from a table of samples.
 
 use occupant_study::analysis::{
     AnalysisError, Effect, RankCorrelation, Regression, SobolIndices, rank_correlation, regression, screening,

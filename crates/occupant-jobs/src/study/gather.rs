@@ -35,7 +35,7 @@ pub type RunWithCaveats = (u64, String);
 /// Number of runs with caveats on a figure, and the caveats.
 #[derive(Clone, Debug, Default)]
 pub struct Spoiled {
-    /// How many runs there are.
+    /// Number of runs.
     pub runs: usize,
     /// Total number of runs with the figure.
     pub of: usize,

@@ -1,4 +1,4 @@
-//! What a finished or growing study says: which parameter matters, how much, how sure that is, and how to run it again.
+//! Report of a finished or running study: influence of each parameter with its uncertainty, and the commands to run it again.
 //!
 //! ```text
 //! folder of a sweep ─ Stored ─ Samples (a table of inputs and responses) ─ Analysis of each response ─ numbers ─ page, Parquet
@@ -99,7 +99,7 @@ impl Report {
         Ok(Report { analyses, notes: caution::of_the_study(&opened, &gathered), gathered, opened })
     }
 
-    /// What it says of each response.
+    /// Results by response.
     fn findings(&self) -> impl Iterator<Item = Finding<'_>> {
         let samples = &self.gathered.samples;
         self.analyses.iter().map(move |(analysis, numbers)| {

@@ -88,7 +88,7 @@ pub fn scatter(input: &Input, response: &Response) -> String {
     dots_figure(&input.name, [axis_of(input), up], vec![curve])
 }
 
-/// Two parameters, each sample coloured by the fifth that its response lies in.
+/// Two parameters, each sample coloured by the quintile of its response.
 pub fn map(across: &Input, up: &Input, response: &Response, fifths: &[f64; 4]) -> String {
     let (unit_per, unit) = shown_unit(&response.unit);
     let every = response.values.len().div_ceil(MOST_DOTS).max(1);

@@ -1,4 +1,4 @@
-//! Which figures of the runs a report is about.
+//! Responses of a report: the results that it analyses.
 
 use crate::base::customary::FIGURES;
 use occupant_core::results::channel::star;

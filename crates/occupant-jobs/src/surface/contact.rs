@@ -1,4 +1,4 @@
-//! When the impactor touches the surface, and how deep it goes.
+//! Contact time and penetration of the impactor.
 
 use std::sync::Arc;
 

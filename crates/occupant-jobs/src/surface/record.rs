@@ -8,7 +8,7 @@ use crate::base::Failure;
 
 /// Least number of samples for a fit.
 const LEAST: usize = 20;
-/// How to name columns.
+/// Naming of columns.
 const NAMING: &str = "name the columns with --columns, such as 't[ms],acceleration[g]' or 't[ms],force[kN],depth[mm]'; `-` leaves one out";
 
 /// Recorded data, s, N and m.

@@ -21,7 +21,7 @@ pub struct Origin {
     pub impactor: Option<String>,
     /// Radius of its face, m.
     pub radius_m: Option<f64>,
-    /// When it was measured.
+    /// Date of the measurement.
     pub date: Option<String>,
     /// Licence for reuse.
     pub licence: Option<String>,

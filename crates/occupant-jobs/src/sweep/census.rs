@@ -1,4 +1,4 @@
-//! How the runs of a study ended, and of which the figures count.
+//! Endings of the runs of a study, and the runs whose results count.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! How far a sweep is.
+//! Progress of a sweep.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! What a sweep would do, told without writing anything.
+//! Preview of a sweep, without writing anything.
 
 use std::time::Instant;
 

@@ -54,7 +54,7 @@ pub fn write(
 /// Refuses journals with missing samples.
 ///
 /// # Errors
-/// Which are missing, by shards.
+/// Missing samples, by shard.
 pub fn refuse_gaps(journal: &Journal, manifest: &Manifest) -> Result<(), Failure> {
     let (samples, gaps) = (manifest.samples, journal.finished.gaps(0..manifest.samples));
     if gaps.is_empty() {

@@ -1,4 +1,4 @@
-//! What a sweep says it came to.
+//! Result message of a sweep.
 
 use std::path::PathBuf;
 

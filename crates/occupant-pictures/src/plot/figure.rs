@@ -85,7 +85,7 @@ pub struct Style {
     pub mark: Mark,
 }
 
-/// How the points of a curve are drawn.
+/// Style of the points of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
     /// A line through them.

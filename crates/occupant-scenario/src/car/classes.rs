@@ -1,4 +1,4 @@
-//! What the inside of a class of cars measures (SAE J1100 names).
+//! Interior dimensions by class of car (SAE J1100 codes).
 //!
 //! H30, W3, W20, L50 and H61 are those of S. Macey, G. Wardle: H-Point, The Fundamentals of Car Design & Packaging (Design Studio Press),
 //! chapter 6, "approximate reference dimensions" of current production cars, which are rounded to 25 mm. A class here lies in the span of its

@@ -10,7 +10,7 @@ use crate::sections::{AnchorSection, CarBelt, CarClass, si_or};
 const D_RING_M: [f64; 3] = [0.42, 0.27, 0.62];
 /// D-ring in the rear, where backs lean more and there is no height adjuster; ours.
 const REAR_D_RING_M: [f64; 3] = [0.46, 0.27, 0.56];
-/// Stature for which the D-ring stands there, how far its height adjuster follows the trunk per stature, its notches and how far that goes
+/// Stature for this position of the D-ring, slope of its height adjuster over the stature, its notches and its range
 /// down and up, m; ours.
 const ADJUSTED_FOR_M: f64 = 1.75;
 const ADJUSTS: f64 = 0.35;
@@ -141,7 +141,7 @@ pub(super) fn buckle_m(kind: CarBelt) -> [f64; 3] {
     if kind == CarBelt::Lap { INNER_ANCHOR_M } else { BUCKLE_M }
 }
 
-/// Where the D-ring of somebody's seat stands, whose design place is so far ahead of it: behind, outboard, above, m.
+/// Position of the D-ring relative to a seat whose design position is this far ahead of it: behind, outboard, above, m.
 pub(super) fn d_ring_m(stature_m: f64, seat: &Seat) -> [f64; 3] {
     if seat.own.belt == Some(CarBelt::Seat) {
         let [up, ahead, outboard] = BACK_RING_M;

@@ -1,4 +1,4 @@
-//! What stands round the seats of a car: wheel, bags, panel, glass, doors, floor and roof.
+//! Interior round the seats of a car: wheel, bags, panel, glass, doors, floor and roof.
 
 use std::fmt::Write as _;
 

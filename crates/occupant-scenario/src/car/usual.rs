@@ -1,4 +1,4 @@
-//! How the keys of a car and of who sits in it are usually spread: ready distributions for studies.
+//! Built-in distributions for studies of the keys of a car and of its occupants.
 
 use super::{Dimension, Size, dimensions};
 use placed_text::{Node, Sources};

@@ -1,4 +1,4 @@
-//! What a car of its years has by default: belts, bags, head restraints, knee bolster. Every number can be said.
+//! Default equipment of a car by model years: belts, bags, head restraints, knee bolster. Every number has a key.
 //!
 //! Sources, all of the United States; Europe followed within some years (UN R16, R17, R94):
 //! - front air bags: FMVSS 208, all cars from model year 1998, light trucks from 1999; none was usual before about 1990;

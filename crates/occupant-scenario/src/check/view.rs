@@ -132,7 +132,7 @@ impl View {
         }
     }
 
-    /// How a value of such a node may be written.
+    /// Permitted notation of a value of the node.
     fn open_example(&self) -> &'static str {
         let example = self.get("x-example").and_then(Json::as_str);
         example.unwrap_or("a number, or a text in quotes")

@@ -156,7 +156,7 @@ pub(super) fn abdomen(body: &Body) -> Option<[String; 2]> {
     Some([sphere, plate.join("\n")])
 }
 
-/// How the sphere of the chest rides; the preceding lines are those of `[body.spheres]`.
+/// Motion of the chest sphere with the plates; the preceding lines are those of `[body.spheres]`.
 fn ride(share: f64) -> String {
     format!(
         "chest.ride = {{ contact = {{ sternum = 1 }}, belt = {{ sternum = {share} }}, bag = {{ sternum = {share} }} }}"

@@ -13,7 +13,7 @@ use occupant_core::run::simulate::{resume, simulate};
 
 const DRIVER: &str = include_str!("../../testdata/hand/three-point.toml");
 
-/// A scenario with these changes, or what is said of it.
+/// A scenario with these changes, or its messages.
 pub(super) fn changed(text: &str, changes: &[&str]) -> Result<(Model, String), String> {
     let mut draft = Draft::read(text, Format::Toml, "test").unwrap();
     changes.iter().for_each(|change| draft.set(change).unwrap());
@@ -107,7 +107,7 @@ fn numbers_of_belts_come_to_their_data() {
     }
 }
 
-/// What a run of the driver shows.
+/// Results of a run of the driver.
 #[derive(Default)]
 struct Seen {
     peaks_n: Vec<f64>,
@@ -258,7 +258,7 @@ fn straps_are_drawn_as_long_as_they_are() {
     assert!(arcs > 50, "{arcs} points of arcs");
 }
 
-/// A run tells when its spool locks and its pretensioner pulls, at the first output behind.
+/// A run reports the locking of its retractor and the firing of its pretensioner at the first output after them.
 #[test]
 fn a_summary_tells_what_happens_to_a_belt() {
     let mut summarizer = Summarizer::new();
@@ -273,7 +273,7 @@ fn a_summary_tells_what_happens_to_a_belt() {
     assert!(events.is_sorted_by_key(|event| event.time_s));
 }
 
-/// A belt that nobody wears is left out, a loop and a belt over nodes alike.
+/// A belt without a wearer is omitted, whether a loop or a belt over nodes.
 #[test]
 fn a_belt_that_is_not_worn_is_not_there() {
     assert_eq!(build(SHORT).belts.len(), 1);

@@ -55,7 +55,7 @@ fn every_distance_that_is_said_is_told_again() {
     assert!(load(&of("class = \"sled\"")).unwrap().dimensions().iter().all(|own| !own.name.starts_with("wheel")));
 }
 
-/// What the source of the classes says of a sedan: H30 250, L50 850, H61 975 mm.
+/// Dimensions of a sedan in the source of the classes: H30 250, L50 850, H61 975 mm.
 #[test]
 fn a_sedan_has_the_published_size() {
     let text = of("[occupants.driver]\n[occupants.rear_left]\n");

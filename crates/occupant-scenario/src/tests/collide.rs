@@ -33,7 +33,7 @@ fn driven(text: &str) -> Drives {
     load(text).unwrap_or_else(|e| panic!("{e}")).drives().unwrap_or_else(|e| panic!("{e}")).0.unwrap()
 }
 
-/// What is told of a text, warnings too.
+/// Messages about a text, including warnings.
 fn told(text: &str) -> String {
     match load(text).and_then(|loaded| loaded.build()) {
         Ok((_, warnings)) => warnings.to_string(),

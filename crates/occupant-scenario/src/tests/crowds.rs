@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{load, short_with};
 
-/// What is said of the short scenario with `head` and `count` rows; how it comes to rest where nothing is wrong.
+/// Messages on the short scenario with `head` and `count` rows; its settling if there is no error.
 fn said(head: &str, count: usize, row: impl Fn(usize) -> String) -> Result<[f64; 2], String> {
     let mut text = format!("{}\n{head}\n", short_with("settle = false", "settle = true"));
     (0..count).for_each(|i| writeln!(text, "{}", row(i)).unwrap());
@@ -57,7 +57,7 @@ fn surfaces_that_all_share_one_edge_are_refused() {
     assert!(found.clone().unwrap_err().contains("too many neighbours"), "{found:?}");
 }
 
-/// Each step of a run would look at all of them, and be as short as so many springs ask for.
+/// Each step of a run would evaluate all of them, and be as short as their total stiffness requires.
 #[test]
 fn a_body_that_touches_things_by_thousands_is_refused() {
     let under = |count: usize| {

@@ -64,7 +64,7 @@ fn webbing_does_not_pass_a_tie() {
     assert!(peaks[0] > 500.0 && peaks[1] > 500.0 && (peaks[0] / peaks[1] - 1.0).abs() > 0.05, "{peaks:?}");
 }
 
-/// A ring that breaks lets both straps become one; webbing that tears, and a belt that is released, carry nothing.
+/// A broken ring joins both straps; torn webbing and a released belt carry no force.
 #[test]
 fn what_breaks_or_is_released_is_lost_with_its_energy() {
     let peak = |changes: &[&str]| {
@@ -94,7 +94,7 @@ fn what_breaks_or_is_released_is_lost_with_its_energy() {
     }
 }
 
-/// A guide on the chest holds webbing that presses it on and lets go webbing that pulls it off.
+/// A guide on the chest holds webbing that presses on it and releases webbing that pulls away.
 #[test]
 fn a_guide_with_a_normal_lets_go_of_what_pulls_away() {
     for (normal, holds) in [("[1, 0, 0]", true), ("[-1, 0, 0]", false)] {
@@ -204,7 +204,7 @@ fn webbing_rubs_on_spheres_as_over_a_capstan() {
     }
 }
 
-/// A belt whose nodes are listed the other way round is the same belt.
+/// A belt with its nodes in reverse order is the same belt.
 #[test]
 fn the_order_of_nodes_does_not_matter() {
     let straps = |nodes: [&str; 5]| {
@@ -232,7 +232,7 @@ fn the_order_of_nodes_does_not_matter() {
     }
 }
 
-/// Curves that a run leaves: of webbing, of its limiter, of what the pelvis sits on.
+/// Curves exceeded in a run: of webbing, of its limiter, of the cushion.
 const SHORT_CURVES: [(&str, &str, &str); 3] = [
     (
         "webbings.w={ strain = [0, 0.03], force = [0, 3000]BEYOND }",
@@ -251,7 +251,7 @@ const SHORT_CURVES: [(&str, &str, &str); 3] = [
     ),
 ];
 
-/// The sled whose webbing, limiter or foam is known so far only.
+/// The sled with a curve of webbing, limiter or foam that ends early.
 fn short_curved(curve: &str, beyond: &str, integrator: &str) -> Model {
     let integrator = format!("integrator={integrator}");
     let mut set = vec![curve.replace("BEYOND", beyond), integrator];

@@ -19,7 +19,7 @@ fn outputs(rate: (usize, f64), path: &str, markers: &str) -> Series {
     series
 }
 
-/// A head that spins about its long axis continues so: a point beside the axis goes round in a circle.
+/// A head that spins about its long axis keeps spinning: a point off the axis moves on a circle.
 #[test]
 fn a_marker_on_a_spinning_segment_goes_round() {
     let markers = "markers.ear = { segment = \"head\", place = [0, 0.1, 0.2], frame = \"segment\" }\n\

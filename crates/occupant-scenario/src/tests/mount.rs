@@ -42,7 +42,7 @@ fn what_hangs_at_rest_pulls_by_its_weight() {
     }
 }
 
-/// In a frame that slows down by a, what hangs at rest swings from the vertical to 2 atan(a/g), whatever its inertia.
+/// In a frame with deceleration a, a hanging body at rest swings from the vertical to 2 atan(a/g), for any inertia.
 #[test]
 fn a_pendulum_in_a_frame_that_slows_down_swings_twice_as_far_as_it_would_hang() {
     let path = "path = { kind = \"pulse\", shape = \"square\", speed = 10, peak = 6, duration = 1 }\n";
@@ -152,7 +152,7 @@ fn half_a_neck_says_so() {
     }
 }
 
-/// In space, beside a path that goes off: a head let go falls there as the closed form says.
+/// In space, beside a moving vehicle: a released head falls by the closed form.
 #[test]
 fn a_mount_that_lets_go_in_space_lets_fall_in_space() {
     let (series, outcome) =

@@ -5,7 +5,7 @@ use crate::Draft;
 use occupant_core::forces::joint::limit::Limits;
 use occupant_core::forces::joint::muscle::Muscle;
 
-/// The short scenario with these changes, or what is said of it.
+/// The short scenario with these changes, or its messages.
 fn changed(changes: &[&str]) -> Result<Setup, String> {
     let mut draft = Draft::read(SHORT, Format::Toml, "test").unwrap();
     changes.iter().for_each(|change| draft.set(change).unwrap());
@@ -79,7 +79,7 @@ fn joints_of_dummies_carry_what_their_calibration_asks() {
     assert!((moment / (52.0 * 15.0 / 12.0 * lbf_ft) - 1.0).abs() < 1e-3, "{moment}");
 }
 
-/// A forearm on a pin, held by its upper arm: what its muscle holds and what it pulls with, at rest at last.
+/// A forearm on a pin, mounted by its upper arm: load and torque of its muscle, finally at rest.
 #[test]
 fn a_muscle_holds_the_angle_that_it_is_told() {
     for (side, arm, muscle, expected_deg) in [

@@ -6,7 +6,7 @@ use super::no_files;
 const DRIVER: &str = include_str!("../../testdata/hand/three-point.toml");
 const CART: &str = include_str!("../../../../scenarios/cart-lap-torso.toml");
 
-/// Plain data and warnings, or what is wrong, as texts, which show every bit.
+/// Plain data and warnings, or problems, as texts to the bit.
 fn outcome(mut draft: Draft, changes: &[&str]) -> String {
     for change in changes {
         if let Err(problems) = draft.set(change) {

@@ -8,7 +8,7 @@ use crate::Draft;
 use occupant_core::results::channel::{Series, matching};
 use occupant_core::run::simulate::simulate;
 
-/// What 49 CFR 572.33 asks of a Hybrid III, to which the neck of `dummy50-like` was fitted: largest rotation (deg), its time and
+/// Requirements of 49 CFR 572.33 for a Hybrid III, to which the neck of `dummy50-like` was fitted: largest rotation (deg), its time and
 /// that of its return (ms), largest moment (lbf·ft), its time and that of its return.
 const FLEXION: [[f64; 2]; 6] =
     [[64.0, 78.0], [57.0, 64.0], [113.0, 128.0], [65.0, 80.0], [47.0, 58.000_1], [97.0, 107.0]];
@@ -147,7 +147,7 @@ fn driven(rows: &str) -> [f64; 7] {
     [turned, at_ms, bent, bent_ms, most(&neck).0, moment("neck.moment.y"), moment("joint.neck_base.moment.y")]
 }
 
-/// A neck of the dead at pulses of volunteers' tests: it turns until its ligaments are taut, and no further. The scenario tells the
+/// A cadaver neck at the pulses of volunteer tests: it bends until its ligaments are taut. The scenario tells the
 /// figures; none is a test's.
 #[test]
 fn the_neck_of_a_person_driven_at_t1_turns_until_it_is_taut() {
@@ -165,7 +165,7 @@ fn the_neck_of_a_person_driven_at_t1_turns_until_it_is_taut() {
     assert!((-90.0..-70.0).contains(&behind[2]) && behind[5] < 57.0, "{behind:.1?}");
 }
 
-/// How far the head turns under a pure moment (N·m, above 0 forward) that both joints bear, at rest, deg.
+/// Static rotation of the head under a pure moment (N·m, positive forward) on both joints, deg.
 fn bent_by(moment_n_m: f64) -> f64 {
     let muscle = format!("{{ tone = 1, torque = [0, {moment_n_m}, 0] }}");
     let set = [

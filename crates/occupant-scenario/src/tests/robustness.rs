@@ -170,7 +170,7 @@ fn deep_nesting() {
     let _ = draft.set(&format!("{}=1", "a.".repeat(20_000) + "b"));
 }
 
-/// What stands a great many times in a text takes time and words in proportion to it: before, minutes and megabytes.
+/// Time and length of messages grow only linearly with repeated mistakes in a text: before, minutes and megabytes.
 #[test]
 fn a_megabyte_is_read_in_seconds_and_refused_in_a_few_words() {
     let many = |n: usize, one: &dyn Fn(usize) -> String| SHORT.to_owned() + "\n" + &(0..n).map(one).collect::<String>();

@@ -8,7 +8,7 @@ use super::super::{Draft, Loaded};
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2 as G;
 use occupant_core::vehicle::{PathCursor, VehiclePath};
 
-/// Where the sensors stand: behind, to the right of and below the c.g., m.
+/// Position of the sensors: behind, to the right of and below the c.g., m.
 const OFFSET_M: Vector3<f64> = Vector3::new(-0.35, 0.10, 0.05);
 /// Samples a second.
 const RATE: f64 = 200.0;
@@ -28,7 +28,7 @@ fn path(name: &str) -> (VehiclePath, f64) {
     (setup.path, setup.gravity_m_s2)
 }
 
-/// What sensors in the vehicle read: specific force in g and rates in deg/s, along the vehicle's axes.
+/// Readings of sensors in the vehicle: specific force in g and rates in deg/s, along the vehicle's axes.
 fn recorded(path: &VehiclePath, gravity_m_s2: f64, end_s: f64) -> String {
     let mut cursor = PathCursor::default();
     let mut csv = String::from(

@@ -38,7 +38,7 @@ fn a_csv_file_gives_the_path_in_its_own_units() {
     assert_eq!(station.pose.position_m.z, 0.0);
 }
 
-/// A pulse that goes on when the vehicle has stopped, and a table with the signs of an accelerometer.
+/// A pulse that continues after the vehicle has stopped, and a table with the signs of an accelerometer.
 #[test]
 fn a_pulse_that_the_speed_does_not_cover_is_warned_of() {
     let warnings = |pulse: &str| {

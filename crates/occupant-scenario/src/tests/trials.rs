@@ -70,7 +70,7 @@ fn a_weight_on_a_rope_over_two_rings_is_held_by_a_capstan() {
     }
 }
 
-/// On its plateau a limiter slows the whole body down by F − m g, whatever its limbs do, and gives its way times F.
+/// On its plateau, a limiter decelerates the whole body by F − m g, for any motion of its limbs, and absorbs its stroke times F.
 #[test]
 fn a_limiter_pulled_by_a_falling_body_takes_its_level_from_the_momentum() {
     for (level, slack) in [(1500.0, 0.1), (2500.0, 0.3), (4000.0, 0.05)] {
@@ -97,7 +97,7 @@ fn a_limiter_pulled_by_a_falling_body_takes_its_level_from_the_momentum() {
     }
 }
 
-/// An open spool pays out as the body falls from rest and locks where so much has left it: ½ g t² by then, and no more after.
+/// An open retractor pays out as the body falls from rest, ½ g t², and locks at the given payout.
 #[test]
 fn a_spool_locks_where_so_much_webbing_has_left_it() {
     for (payout, more) in [(0.05, 0.0), (0.12, 0.02), (0.3, 0.0)] {

@@ -60,12 +60,12 @@ impl StudyText {
         if binder.problems.has_errors() { Err(binder.problems) } else { Ok(fit) }
     }
 
-    /// Checks the study against the base scenario of a `test`: what its scenario has besides, and where that stands in the
+    /// Checks the study against the base scenario of a `test`: the additional entries of its scenario, and their position in the
     /// study; then come the `overrides` of a command line. A design, an ensemble and correlations of the study are for
     /// sweeps and count for nothing here.
     ///
     /// # Errors
-    /// As [`StudyText::bind`]; a parameter that has no ends.
+    /// As [`StudyText::bind`]; a parameter without finite ends.
     pub fn bind_fit(
         &self,
         base: Draft,

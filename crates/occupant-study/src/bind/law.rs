@@ -22,11 +22,11 @@ fn usual(binder: &mut Binder, section: &ParameterSection, at: &str) -> Option<Di
     })
 }
 
-/// How the values of a parameter are read.
+/// Reading of the values of a parameter.
 pub(super) struct Quantities<'w> {
     /// The kind of its numbers; none for names.
     pub(super) kind: Option<&'static Kind>,
-    /// What its paths accept.
+    /// Kinds of values that its paths accept.
     pub(super) wanted: &'w Wanted,
     /// Units of bare numbers.
     pub(super) units: UnitSystem,

@@ -124,7 +124,7 @@ impl Binder<'_> {
         (whole && !places.is_empty()).then_some(places)
     }
 
-    /// What all targets accept.
+    /// Kinds of values that all targets accept.
     pub(super) fn common(&mut self, places: &[Place], at: &str) -> Option<Wanted> {
         let first = places.first()?;
         let other = places.iter().find(|p| p.wanted != first.wanted);

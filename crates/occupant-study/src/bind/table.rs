@@ -9,7 +9,7 @@ use occupant_scenario::kind::Kind;
 use occupant_scenario::{Diagnostic, Resolver, Wanted};
 use placed_text::{Cell, Problem, Separator, Sources, Span, lines, name_and_unit, one_of, text_of};
 
-/// How the cells of a column are read.
+/// Reading of the cells of a column.
 struct Column {
     parameter: usize,
     wanted: Wanted,
@@ -113,7 +113,7 @@ impl Reader<'_, '_, '_> {
         Some(Column { parameter, wanted, kind, factor })
     }
 
-    /// What the targets of a parameter accept.
+    /// Kinds of values that the targets of a parameter accept.
     fn wanted(&self, parameter: &Parameter) -> Option<Wanted> {
         let path = &parameter.targets.first()?.path;
         let places = self.binder.base?.places(path).ok()?;

@@ -18,7 +18,7 @@ const FALL: &str = r#"
     rates = [0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
 "#;
 
-/// What happens to which run.
+/// Outcome by run.
 #[derive(Clone, Copy, Default)]
 struct Falls {
     refused: Option<u64>,

@@ -51,7 +51,7 @@ const FIRST_STEP: f64 = 0.3;
 /// Searches the unit cube for its least value. At least one generation is computed, however few evaluations there are.
 ///
 /// # Errors
-/// What `evaluate` reports.
+/// An error of `evaluate`.
 pub fn descend<E>(how: &Descents, evaluate: &mut Evaluate<'_, E>) -> Result<Global, E> {
     let mut left = how.evaluations;
     let mut population = how.population.max(4);

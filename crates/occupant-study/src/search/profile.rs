@@ -60,7 +60,7 @@ struct Chain {
 /// coordinates.
 ///
 /// # Errors
-/// What `evaluate` reports.
+/// An error of `evaluate`.
 pub fn profile<E>(
     centre: &Point,
     reaches: &[[Reach; 2]],

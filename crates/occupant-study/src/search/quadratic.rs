@@ -30,7 +30,7 @@ fn offsets(u: f64, length: f64) -> [f64; 2] {
 /// A quadratic model around `centre` through points at about `lengths` from it, and all points evaluated.
 ///
 /// # Errors
-/// What `evaluate` reports.
+/// An error of `evaluate`.
 pub fn explore<E>(
     stage: Stage,
     centre: &Point,

@@ -18,7 +18,7 @@ const PARTS: [f64; 4] = [0.3, 1.0, 1.7, 3.0];
 /// value by `rise`; a missing length is that of the cube.
 ///
 /// # Errors
-/// What `evaluate` reports.
+/// An error of `evaluate`.
 pub fn refine<E>(centre: Point, lengths: &[f64], rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<Point, E> {
     let all: Vec<usize> = (0..centre.at.len()).collect();
     let lengths: Vec<f64> = all.iter().map(|i| lengths.get(*i).copied().unwrap_or(1.0)).collect();

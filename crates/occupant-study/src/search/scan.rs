@@ -33,7 +33,7 @@ struct Chain {
 /// The reach of each coordinate of `centre`, down and up, and the lowest point found.
 ///
 /// # Errors
-/// What `evaluate` reports.
+/// An error of `evaluate`.
 pub fn scan<E>(centre: &Point, rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<(Vec<[Reach; 2]>, Point), E> {
     let centre = &centre.clone().in_cube();
     let mut chains: Vec<Chain> =

@@ -28,7 +28,7 @@ impl Shape {
     /// value would fall further is left out. Also the lowest point found.
     ///
     /// # Errors
-    /// What `evaluate` reports.
+    /// An error of `evaluate`.
     pub fn look<E>(
         centre: &Point,
         reaches: &[[Reach; 2]],

@@ -30,7 +30,7 @@ const OF_PARAMETERS: usize = SIDE_BY_SIDE - 1;
 pub struct Trajectory {
     /// The plain run's outputs.
     pub checkpoints: Vec<Checkpoint>,
-    /// How it ended.
+    /// Outcome.
     pub outcome: Outcome,
     /// Events where the motion is not differentiable.
     pub events: Vec<Event>,
@@ -52,7 +52,7 @@ struct Displacement {
 /// Runs `model` with derivatives by the parameters of `built`. The path's derivatives are evaluated on the way.
 ///
 /// # Errors
-/// What was built of another model; a run that does not come to its end.
+/// Parameters or start of another model; a run that does not reach its end.
 pub fn follow(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
     follow_watched(model, built, &mut |_, _| ())
 }

@@ -1,4 +1,4 @@
-//! Where the samples lie.
+//! Positions of the samples.
 
 use super::super::{Design, Role, Value};
 use super::{bind, numbers, study, unit_square};

@@ -1,4 +1,4 @@
-//! Where parameters act, and that what is put there arrives.
+//! Targets of parameters, and the values that arrive there.
 
 use super::super::{StudyText, Value};
 use super::{base, bind, no_files, study};

@@ -13,7 +13,7 @@ use placed_text::nearest;
 pub struct NamedUnit {
     /// Names; the first is the usual one.
     pub names: &'static [&'static str],
-    /// What it measures.
+    /// Dimension that it measures.
     pub dimension: Dimension,
     /// SI value of one unit.
     pub factor: f64,

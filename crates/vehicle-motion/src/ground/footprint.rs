@@ -296,7 +296,7 @@ mod tests {
         }
     }
 
-    /// Around a curb, whatever the heading, the elastic force does no work on a closed way.
+    /// Around a curb, whatever the heading, the elastic force does no work on a closed path.
     #[test]
     fn a_way_round_a_curb_gains_no_energy() {
         let curb = Curb { right_m: 0.0, height_m: 0.15, face_rad: 80f64.to_radians() };

@@ -59,9 +59,9 @@ pub enum GroundError {
     Order {
         /// Its number, counted from 1.
         number: usize,
-        /// Where it lies, m.
+        /// Its position, m.
         right_m: f64,
-        /// Where the one before lies, m.
+        /// Position of the one before, m.
         before_m: f64,
     },
     /// A curb that does not fit.
@@ -115,7 +115,7 @@ impl Ground {
         Ok(Ground::of(corners_m, grade))
     }
 
-    /// This ground with curbs, each of which lifts all that lies right of it.
+    /// This ground with curbs, each of which raises everything to its right.
     ///
     /// # Errors
     /// A face that is not between level and upright, or curbs whose faces overlap.
@@ -215,7 +215,7 @@ impl Ground {
         self.normals[self.plane_at(right_m)]
     }
 
-    /// Normal and a point of the plane at a distance right of the X axis, if it continues for a way to both sides.
+    /// Normal and a point of the plane at a distance right of the X axis, if it continues to both sides.
     pub(crate) fn lone(&self, right_m: f64, way_m: f64) -> Option<(V3, V3)> {
         self.lone_plane(right_m, way_m).map(|plane| (self.normals[plane], self.point_m(plane)))
     }

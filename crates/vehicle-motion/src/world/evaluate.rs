@@ -62,7 +62,7 @@ impl Setup<'_> {
         passes.iter().map(|pass| pass.gap_m(&self.shapes, poses)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Where all bodies are.
+    /// Positions of all bodies.
     pub(crate) fn pose(&self, stack: &Stack, memories: &Memories, poses: &mut Vec<Pose>) {
         poses.clear();
         poses.extend(stack.cars.iter().map(State::pose));

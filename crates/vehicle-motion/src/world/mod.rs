@@ -55,7 +55,7 @@ impl Default for World {
 pub struct Entry {
     /// The vehicle.
     pub car: Car,
-    /// Who drives it.
+    /// Driver.
     pub driver: Driver,
     /// Its start.
     pub begin: Begin,
@@ -74,7 +74,7 @@ impl Entry {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "one for each vehicle")]
 pub enum Begin {
-    /// As it stands on the ground at a place.
+    /// In equilibrium on the ground at a position.
     At(Start),
     /// With a state.
     State(State),
@@ -132,7 +132,7 @@ pub struct Outcome {
 /// Travel of a barrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slid {
-    /// Largest way, m.
+    /// Largest displacement, m.
     pub most_m: f64,
     /// Direction, clockwise from X, rad.
     pub direction_rad: f64,
@@ -185,7 +185,7 @@ pub enum WorldError {
     Overlap {
         /// Their numbers.
         between: (usize, usize),
-        /// How deep, m.
+        /// Penetration, m.
         depth_m: f64,
     },
     /// A vehicle that starts within a barrier.
@@ -195,7 +195,7 @@ pub enum WorldError {
         car: usize,
         /// Number of the barrier.
         barrier: usize,
-        /// How deep, m.
+        /// Penetration, m.
         depth_m: f64,
     },
     /// An invalid barrier.
@@ -203,7 +203,7 @@ pub enum WorldError {
     Barrier {
         /// Its number.
         barrier: usize,
-        /// What is wrong, and what is expected.
+        /// Problem, and expected value.
         what: &'static str,
     },
     /// Steps became too short.

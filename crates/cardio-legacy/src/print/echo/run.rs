@@ -1,4 +1,4 @@
-//! What the run is: its origin, times, integrator, and what was said about it.
+//! The run: its origin, times, integrator, and its warnings.
 
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::setup::Integrator;

@@ -1,4 +1,4 @@
-//! How the occupant starts: the seating as read and as computed, the coordinates, the elements laid, the pairs passed.
+//! Initial state of the occupant: the seating as read and as computed, the coordinates, the elements, the passed pairs.
 
 use occupant_core::model::seat::Seated;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};

@@ -132,7 +132,8 @@ fn a_blow_from_the_side_is_judged_by_rules_of_the_side() {
     assert!(of(&frontal, "rib_deflection").limits.is_empty() && of(&frontal, "rib_deflection").risks.is_empty());
 }
 
-/// A whiplash test: T1 goes ahead with 50 m/s² from the start, the head stays, and rests on its restraint from 40 to 90 ms.
+/// A whiplash test: T1 accelerates forward with 50 m/s² from the start; the head is at rest, and touches its restraint from
+/// 40 to 90 ms.
 fn rear() -> Signals {
     let mut signals = reads([
         (Special::T1, history(|_| 50.0)),

@@ -14,7 +14,7 @@ pub use quantity::Quantity;
 pub use rule::Rule;
 pub use table::LIMITS;
 
-/// What exceeding a limit means.
+/// Consequence of exceeding a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Grade {
     /// The rule is not met.
@@ -52,7 +52,7 @@ pub enum Grade {
 }
 
 impl Grade {
-    /// What it is, as text.
+    /// Description.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -96,9 +96,9 @@ pub struct Limit {
     pub quantity: Quantity,
     /// The largest value allowed, SI.
     pub most: f64,
-    /// What exceeding it means.
+    /// Consequence of exceeding it.
     pub grade: Grade,
-    /// Where the number was read.
+    /// Source of the number.
     pub basis: Basis,
 }
 
@@ -169,7 +169,7 @@ mod tests {
         assert_eq!(of(Dummy::Thor50M, Quantity::Nij), [1.0]);
     }
 
-    /// Whoever reads a verdict finds the document and its year.
+    /// Every verdict names the document and its year.
     #[test]
     fn each_rule_names_its_document_and_a_year() {
         let has_year = |words: &str| {
@@ -220,7 +220,7 @@ mod tests {
         );
     }
 
-    /// A frontal rule says nothing of a dummy that is struck from the side, nor the other way.
+    /// A frontal rule does not apply to a side-impact dummy, nor vice versa.
     #[test]
     fn rules_hold_for_dummies_of_their_own_blow() {
         for (rule, own, other) in [

@@ -1,4 +1,4 @@
-//! What rules limit.
+//! Quantities with limits in rules.
 
 /// A limited quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

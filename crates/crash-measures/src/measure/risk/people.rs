@@ -1,4 +1,4 @@
-//! What is known of people, not of dummies.
+//! Risk functions for people instead of dummies.
 
 /// Number of broken ribs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,4 +1,4 @@
-//! When the head meets its restraint.
+//! Contact time of the head with its restraint.
 
 use crate::signal::{SignalError, require_positive, require_samples};
 

@@ -1,4 +1,4 @@
-//! How fast the head comes back, how far the pelvis travels in the seat, and largest values up to a time.
+//! Rebound velocity of the head, travel of the pelvis in the seat, and largest values up to a time.
 
 use crate::measure::{Peak, peak::maximum, peak::peak_towards};
 use crate::signal::{SignalError, require_same_length, require_samples};

@@ -36,7 +36,7 @@ pub(crate) struct TestArgs {
 /// A time as text, s; a bare number is in seconds.
 ///
 /// # Errors
-/// What is no time.
+/// An invalid time.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let wrong = |expected: &str| format!("not a time; expected {expected}, such as '80 ms'");
     match KINDS[TIME].read(text) {
@@ -49,7 +49,7 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 /// An interval between samples or prints as text, s.
 ///
 /// # Errors
-/// What is no time above zero.
+/// An invalid time, or one that is not above zero.
 pub(crate) fn interval(text: &str) -> Result<f64, String> {
     match seconds(text)? {
         seconds if seconds > 0.0 => Ok(seconds),

@@ -1,4 +1,4 @@
-//! What `occupant risk` measures: recorded data, or the path of a scenario or run.
+//! Input of `occupant risk`: recorded data, or the path of a scenario or run.
 
 use crash_measures::signal::{ChannelClass, STANDARD_GRAVITY_MPS2, SignalError, smooth};
 use nalgebra::Vector3;

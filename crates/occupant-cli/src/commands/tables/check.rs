@@ -15,7 +15,7 @@ use crate::base::text_table::{NONE, facts, table, trimmed};
 /// Missing joint moment below which a posture counts as held, N·m.
 const LEAST_LACK_N_M: f64 = 1.0;
 
-/// What a user should see before a run; with `all` also segments, friction, corners, self-contact and time scales.
+/// Overview before a run; with `all` also segments, friction, corners, self-contact and time scales.
 pub(crate) fn check_text(d: &Diagnosis, car: &[Dimension], units: Units, all: bool) -> String {
     let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d, units)];
     if all {

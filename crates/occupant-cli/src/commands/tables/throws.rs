@@ -1,4 +1,4 @@
-//! How bodies were thrown, in the terms of reconstruction.
+//! Throws of bodies, in the terms of accident reconstruction.
 
 use occupant_core::results::summary::{Degree, Landing, Launch, Searle, Summary, Throw, ThrowStart};
 use placed_text::shown;

@@ -51,7 +51,7 @@ pub(super) struct Now<S: Scalar> {
     pub(super) gas: Mixture<S>,
 }
 
-/// What flows into and out of a bag.
+/// Flows into and out of a bag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flows<S> {
     /// kg/s.

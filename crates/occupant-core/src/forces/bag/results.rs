@@ -1,4 +1,4 @@
-//! What a bag contributes to results.
+//! Results of a bag.
 
 use nalgebra::Point3;
 use occupant_units::unit::Unit::{
@@ -210,7 +210,7 @@ impl Reported for Bags {
             scaled(1e3, Column::time("fires_s")),
             scaled(1e3, Column::number("volume_m3", "volume, l", 1)),
             scaled(1e3, Column::number("gas_kg", "gas, g", 1)),
-            scaled(1e3, Column::number("filled_m3", "fills unpressed, l", 1)),
+            scaled(1e3, Column::number("filled_m3", "volume without load, l", 1)),
         ];
         let row = |bag: &Bag| {
             let [mass, volume] = bag.filled();

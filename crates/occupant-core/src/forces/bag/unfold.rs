@@ -1,4 +1,4 @@
-//! How far a bag has unfolded: its envelope grows linearly in volume, all its lengths as the cube root of it.
+//! Unfolding of a bag: the volume of its envelope grows linearly, all its lengths as the cube root of it.
 
 use super::data::{Bag, FOLDED};
 use crate::forces::element::{Instant, passes};

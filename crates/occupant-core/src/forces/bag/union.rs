@@ -1,4 +1,4 @@
-//! What spheres displace of a bag together: the volume of the union of what each displaces, and its slopes.
+//! Volume that spheres displace of a bag together, the union of their single volumes, with its derivatives.
 //!
 //! Sphere k alone displaces V_k. Two whose middles are d apart beside each other, d² = |x_k − x_l|² − (s_k − s_l)², have
 //! V_kl in common: their sections at the depth z below the envelope are discs of the areas A_k(δ_k − z) and A_l(δ_l − z),

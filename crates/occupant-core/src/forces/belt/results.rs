@@ -1,4 +1,4 @@
-//! What a belt contributes to the results (report, "Output", item 7).
+//! Results of a belt (report, "Output", item 7).
 
 use occupant_units::unit::Unit::{self, Joule, Metre, Newton, Radian};
 

@@ -1,4 +1,4 @@
-//! How the first strap is fed at one instant: tension and webbing over the unknown of the march.
+//! Feed of the first strap at one instant: tension and webbing over the unknown of the march.
 
 use super::device::DeviceLaw;
 use crate::motion::scalar::Scalar;

@@ -301,8 +301,8 @@ fn bear<S: Scalar>(
     }
 }
 
-/// A force on a point of a frame that is not the belt's: what moves it relative to that does work on the webbing, and a frame that
-/// yields feels the force.
+/// Applies a force at a point of a frame other than the belt's: motion relative to the belt's frame does work on the webbing,
+/// and a yielding frame receives the force.
 #[inline(always)]
 fn hold<S: Scalar>(
     chain: &ChainLaw<S>,
@@ -316,12 +316,12 @@ fn hold<S: Scalar>(
     let given = force.dot(velocity);
     let power = load.power_at(bearer);
     power.sums[STRETCH] -= given;
-    // what it gives to a frame that yields stands there in the books of the column or hinge
+    // the work on a yielding frame is in the ledger of its column or hinge
     power.vehicle -= given;
     load.push([own, bearer], -force, point, V3::zero(), S::truth(true));
 }
 
-/// A force on a place of a segment, which may ride on parts of it that yield, and its power; space axes.
+/// Applies a force at a point of a segment, which may move with plates, with its power; space axes.
 #[inline(always)]
 fn pull<S: Scalar>(
     at: &Instant<'_, S>,

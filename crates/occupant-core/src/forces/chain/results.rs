@@ -1,4 +1,4 @@
-//! What a chain contributes to results: its straps, one by one.
+//! Results of a chain, by strap.
 
 use std::array::from_fn;
 

@@ -379,7 +379,7 @@ impl<S: Scalar> NodeLaw<S> {
         Place { centre, radius, is_sphere: self.is_sphere(), rubs: self.rubs, may_leave: self.may_leave, sense }
     }
 
-    /// How it continues from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
+    /// Continuation from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
     /// webbing still passes it, and the work of what pulls it; `since` is the time of the step before. A stroke that has stalled has a speed below 0.
     #[inline(always)]
     pub(super) fn commit(

@@ -1,4 +1,4 @@
-//! What a column contributes to results.
+//! Results of a column.
 
 use occupant_units::unit::Unit::{
     Joule, Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian, RadianPerSecond, Second,
@@ -178,15 +178,15 @@ impl<const TURNS: bool> Reported for Giving<TURNS> {
         shown.data.those(TURNS).next()?;
         let slides = [
             TableColumn::number("mass_kg", "mass, kg", 2),
-            scaled(1e-3, TableColumn::number("most_n", "force up to, kN", 2)),
-            scaled(1e3, TableColumn::number("end_m", "ends at, mm", 0)),
-            scaled(1e-6, TableColumn::number("unload_n_per_m", "unloads, kN/mm", 2)),
+            scaled(1e-3, TableColumn::number("most_n", "largest force, kN", 2)),
+            scaled(1e3, TableColumn::number("end_m", "stroke, mm", 0)),
+            scaled(1e-6, TableColumn::number("unload_n_per_m", "unloading, kN/mm", 2)),
         ];
         let turns = [
             TableColumn::number("inertia_kg_m2", "inertia, kg·m²", 2),
-            TableColumn::number("most_n_m", "moment up to, N·m", 0),
-            scaled(DEGREES, TableColumn::number("end_rad", "ends at, °", 0)),
-            scaled(1e-3 / DEGREES, TableColumn::number("unload_n_m_per_rad", "unloads, kN·m/°", 3)),
+            TableColumn::number("most_n_m", "largest moment, N·m", 0),
+            scaled(DEGREES, TableColumn::number("end_rad", "rotation, °", 0)),
+            scaled(1e-3 / DEGREES, TableColumn::number("unload_n_m_per_rad", "unloading, kN·m/°", 3)),
         ];
         let columns = if TURNS { turns } else { slides };
         let row = |(_, column): (usize, &Column)| {

@@ -1,4 +1,4 @@
-//! What a plate contributes to results.
+//! Results of a plate.
 
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, Newton, Second};
 

@@ -42,7 +42,7 @@ pub use throw::{Landing, Launch, Throw, ThrowStart};
 pub struct Summary {
     /// The scenario's title.
     pub title: String,
-    /// How the run ended.
+    /// End of the run.
     pub status: RunStatus,
     /// Reason, if it did not complete.
     pub reason: Option<String>,

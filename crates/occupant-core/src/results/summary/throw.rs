@@ -1,4 +1,4 @@
-//! How a body is thrown: from the blow, through the air, over the ground, to where it rests.
+//! Throw of a body: from the blow, through the air, over the ground, to rest.
 //!
 //! The terms are those of accident reconstruction. The *throw distance* is the horizontal distance of the centre of
 //! gravity of the whole body from its position at the blow to its position at rest. The *launch* is when it leaves what

@@ -25,7 +25,7 @@ pub(super) struct Readings {
 /// The readings of a definition's record.
 ///
 /// # Errors
-/// Everything that is wrong with the record, or with what is to be done with it.
+/// All problems of the record, or of its options.
 pub(super) fn read(definition: &SensorDefinition) -> Result<Readings, Vec<PathProblem>> {
     let mut problems = definition.record.problems();
     let start_s = start(definition, &mut problems);

@@ -18,7 +18,7 @@ use slips::slip;
 use units::{rough, slow, weak, wrong_unit};
 use zero::zero_errors;
 
-/// What is known of the vehicle besides the record.
+/// Known data of the vehicle besides the record.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Known {
     /// Time of first contact, s, if given.

@@ -132,7 +132,7 @@ impl Checksums {
 mod tests {
     use super::*;
 
-    /// Else `/dev/zero` would be read, and a file of somebody else put aside.
+    /// Otherwise `/dev/zero` would be read, and a file of another owner renamed.
     #[test]
     fn only_files_of_the_folder_are_listed() {
         let there = tempfile::tempdir().unwrap();

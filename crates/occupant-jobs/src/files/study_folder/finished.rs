@@ -1,4 +1,4 @@
-//! Which samples of a study are finished.
+//! Finished samples of a study.
 
 use std::ops::Range;
 

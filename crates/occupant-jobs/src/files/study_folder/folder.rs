@@ -199,7 +199,7 @@ impl Folder {
     /// Refuses a folder with tables or runs of another sweep.
     ///
     /// # Errors
-    /// What stands there.
+    /// The existing manifest.
     pub fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
         if self.manifest()?.as_ref() == Some(manifest) {
             return Ok(());

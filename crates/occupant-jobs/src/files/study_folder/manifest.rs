@@ -32,7 +32,7 @@ pub struct Manifest {
 /// A file that the sweep was made from.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Text {
-    /// Who refers to it.
+    /// File that refers to it.
     pub by: NamedBy,
     /// Its name there; the study without its folder.
     pub name: String,

@@ -1,4 +1,4 @@
-//! What can go wrong with a folder of results.
+//! Problems of a folder of results.
 
 use std::io;
 use std::ops::Range;

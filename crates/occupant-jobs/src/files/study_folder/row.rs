@@ -38,7 +38,7 @@ impl Status {
 pub struct Row {
     /// Index of the sample, from 0.
     pub index: u64,
-    /// How it ended.
+    /// Outcome.
     pub status: Status,
     /// The reason, if it did not complete; else empty.
     pub reason: String,

@@ -1,4 +1,4 @@
-//! Which part of a study one process computes.
+//! Part of a study that one process computes.
 
 use std::fmt;
 use std::ops::Range;

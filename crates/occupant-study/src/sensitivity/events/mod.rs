@@ -70,7 +70,7 @@ pub struct Event {
     pub time_s: f64,
     /// The event.
     pub happening: Happening,
-    /// How the force changes.
+    /// Change of the force.
     pub change: Change,
     /// Jump of the force, N; 0 for a kink.
     pub jump_n: f64,

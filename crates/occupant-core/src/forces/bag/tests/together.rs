@@ -31,7 +31,7 @@ fn together(list: &[([f64; 3], f64)], face: Option<f64>) -> Union<f64> {
     unite(&caps, face)
 }
 
-/// Lens of two discs by the formula for circular segments, and where one lies in the other or beside it.
+/// Lens of two discs by the formula for circular segments, also with one disc within the other or outside it.
 #[test]
 fn a_lens_is_two_segments_of_circles() {
     let pi = std::f64::consts::PI;
@@ -160,7 +160,7 @@ fn a_body_of_many_spheres_rises_as_high_again() {
     assert!(energy.abs() < 1e-9 * 10.0 * GRAVITY * (0.32 - lowest), "{energy:e} {lowest}");
 }
 
-/// What a plate in the way of a dome feels of its cover: the momentum of what arrives, m A u²/(3V_f λ²(1 − λ_0)).
+/// Impulse of a dome's cover on a plate: the momentum that arrives, m A u²/(3V_f λ²(1 − λ_0)).
 #[test]
 fn a_cover_leaves_its_momentum_to_what_is_in_its_way() {
     let shape = Shape::Dome { axis: Vector3::z(), depth_m: 0.30, radius_m: 0.33, face_radius_m: 0.55, edge_m: 0.05 };
@@ -188,7 +188,7 @@ fn a_cover_leaves_its_momentum_to_what_is_in_its_way() {
     assert_eq!(push(0.3, 0.02, [0.28 + 0.12, 30.0]).0, push(0.0, 0.02, [0.28 + 0.12, 30.0]).0);
 }
 
-/// A picture of a dome that a sphere presses: no corner stands within the sphere, and what is beside it stands as before.
+/// Picture of a dome compressed by a sphere: no corner is within the sphere, and the other corners are unchanged.
 #[test]
 fn pictures_show_a_bag_pressed_in() {
     let shape = Shape::Dome { axis: Vector3::z(), depth_m: 0.30, radius_m: 0.33, face_radius_m: 0.55, edge_m: 0.05 };

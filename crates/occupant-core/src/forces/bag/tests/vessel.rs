@@ -53,7 +53,7 @@ fn the_flow_through_a_hole_chokes_where_it_should() {
     assert!(off.abs() < 3e-14, "{off:e}");
 }
 
-/// A vent opens at its pressure and stays open; heat goes out until the gas is as cold as the air around it.
+/// A vent opens at its pressure and stays open; heat flows out until the gas has the temperature of the ambient air.
 #[test]
 fn a_vent_that_has_opened_stays_open() {
     let vent = Vent { area_m2: 1e-3, discharge: 0.7, opens_at_pa: 20_000.0, due_s: NEVER };
@@ -75,7 +75,7 @@ fn heat_is_lost_until_the_gas_is_as_cold_as_the_air() {
     assert!(rig.actions[0].residual < 1e-10);
 }
 
-/// Cold gas comes into a bag that does not fill: U of what is there stays, and at p_a nothing jumps.
+/// Cold gas flows into a bag that does not fill: U of its content is constant, and nothing jumps at p_a.
 #[test]
 fn a_bag_that_is_slack_has_the_pressure_outside_until_it_is_full() {
     let rows = vec![[0.0, 1.0, 300.0], [0.2, 1.0, 300.0]];

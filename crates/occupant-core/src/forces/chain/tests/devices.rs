@@ -99,7 +99,7 @@ fn a_force_released_is_gone() {
     assert_eq!(rig.pulls, [0.0; MOST_NODES]);
 }
 
-/// On a plateau the force moves from one limiter to the other in a straight line of time, and what it sets free is lost.
+/// On a plateau, the force moves from one limiter to the other linearly in time, and the released energy is dissipated.
 #[test]
 fn a_second_limiter_takes_over_within_its_time() {
     let mut device = reel(at(0.0), None, Some(&[[0.0, 0.0], [0.01, 4e3], [0.6, 4e3]]));
@@ -120,7 +120,7 @@ fn a_second_limiter_takes_over_within_its_time() {
     assert!((rig.work / gained - 1.0).abs() < 2e-3, "{} {gained}", rig.work);
 }
 
-/// A limiter that a belt carries at its anchor gives its work back but for what it loses, and stops where it is steep.
+/// A limiter at a belt's anchor returns its work less its dissipation, and stops where its curve is steep.
 #[test]
 fn a_limiter_at_an_anchor_bottoms_where_it_is_steep() {
     let mut rig = drawn_out(limiter(&[[0.0, 0.0], [0.002, 3e3], [0.08, 3e3], [0.082, 40e3]]), 0.12);
@@ -147,7 +147,7 @@ fn drawn_out(device: Device, by: f64) -> Rig {
     rig
 }
 
-/// What is no number is told with the belt, not taken for a motion.
+/// NaN is reported with the belt and not used as a motion.
 #[test]
 fn tensions_that_are_not_found_are_told() {
     let data = chain(&[0.2], webbing(1.0), fixed(), Rest::Slack(0.0));

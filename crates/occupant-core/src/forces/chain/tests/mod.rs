@@ -19,7 +19,7 @@ fn random(seed: &mut u64) -> f64 {
     (*seed >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// f = 110 kN ε(1 + 2ε) as so many straight lines up to 20 %.
+/// f = 110 kN ε(1 + 2ε) as this number of straight lines up to 20 %.
 fn lines(count: usize, returned: f64) -> Function {
     let point = |i: usize| {
         let strain = 0.2 * i as f64 / count as f64;
@@ -67,7 +67,7 @@ fn limiter(points: &[[f64; 2]]) -> Device {
     Device { limiter: Some(Function::lines(points.to_vec(), 0.01)), second: None, reel: None }
 }
 
-/// Straps, what they remember, and how they lie.
+/// Straps, their memory, and their geometry.
 struct Rig {
     straps: Straps<f64>,
     past: ChainPast<f64>,

@@ -109,7 +109,7 @@ fn webbing_turns_by_the_angle_between_its_spans() {
     }
 }
 
-/// Where a sphere comes on, or goes off, the webbing is as long with it as without: to ½W²S₋S₊/(S₋ + S₊).
+/// When a sphere comes into or out of contact, the webbing has equal lengths with and without it: to ½W²S₋S₊/(S₋ + S₊).
 #[test]
 fn a_sphere_that_comes_on_changes_the_length_by_the_square_of_its_wrap() {
     for wrap in [2e-3_f64, -2e-3, 2e-4] {

@@ -129,7 +129,7 @@ impl Rig {
     }
 }
 
-/// A weight on a rope over a ring, while the rope slides one way: rk4 keeps its order though webbing is handed over at
+/// A weight on a rope over a ring, with the rope sliding in one direction: rk4 keeps its order although webbing moves over at
 /// accepted steps alone.
 #[test]
 fn rk4_keeps_its_order_while_webbing_slides() {
