@@ -115,6 +115,8 @@ pub struct ContactSphere {
     pub part: String,
     /// Factor on its contact forces, for a material measured on the whole part; 1 by default.
     pub share: f64,
+    /// The same on bars thinner than itself that cross a limb: capsules and rims; 1 by default.
+    pub bar_share: f64,
     /// Deformable parts that it rides on; none by default.
     pub ride: Ride,
 }
@@ -130,6 +132,7 @@ impl ContactSphere {
             centre_from_lower_end_m,
             radius_m,
             share: 1.0,
+            bar_share: 1.0,
             ride: Ride::default(),
         }
     }

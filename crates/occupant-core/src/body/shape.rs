@@ -50,6 +50,9 @@ const SIDES: [&str; 2] = ["right", "left"];
 
 /// Largest distance between spheres of a row, in mean radii: their envelope sags by 0.4 of one.
 pub const APART: f64 = 1.6;
+/// Length of a limb that a bar across it presses, in its radii: the forces at Δ − x²/2(r + ρ) of all places x along a limb of
+/// radius r are that at Δ on a length of (4/3)√(2(r + ρ)Δ); 44 mm of a forearm, r = 40 mm, 10 mm deep in a rim, ρ = 15 mm.
+const BAR_APART: f64 = 1.2;
 /// The same for spheres that share their force: HIC and chest loads of belted drivers change by less than 5 % from here
 /// to half of it.
 pub const APART_EVENLY: f64 = 1.2;
@@ -133,15 +136,16 @@ fn in_row<'s>(
     let long = down.norm() / (0.5 * (from.radius_m + to.radius_m));
     let gaps = (long / apart).ceil().clamp(1.0, MOST_IN_ROW as f64 + 1.0);
     // one that is farther from its neighbours than usual exerts what is missing between them
-    let alone = (long / gaps / APART).max(1.0);
+    let [alone, alone_on_bars] = [APART, BAR_APART].map(|usual| (long / gaps / usual).max(1.0));
     let sphere = |i: usize| {
         let along = i as f64 / gaps;
         let part = sided(row.part);
         let radius_m = from.radius_m + along * (to.radius_m - from.radius_m);
-        let share = alone * of(&part).map_or(1.0, |replaced| replaced.share);
+        let own = of(&part).map_or(1.0, |replaced| replaced.share);
+        let (share, bar_share) = (alone * own, alone_on_bars * own);
         let name = format!("{part}_{i}");
         let plain = ContactSphere::new(name, segment, (top + down * along).into(), radius_m);
-        ContactSphere { part, share, ..plain }
+        ContactSphere { part, share, bar_share, ..plain }
     };
     (1..gaps as usize).map(sphere).collect()
 }
@@ -151,19 +155,32 @@ fn in_row<'s>(
 ///
 /// Two of radii r_k and r_l whose centres are d apart count for each other as o_kl = 1 − (d + |r_k − r_l|)/(1.6 min(r_k, r_l)), if that is
 /// positive; the share of k is 1/Σ o_kl. A row has the same force however dense it is: n spheres in one place have 1/n each,
-/// spheres 1.6 radii apart have all of theirs.
+/// spheres 1.6 radii apart have all of theirs. On bars across limbs 1.2 radii take the place of 1.6, as a bar meets one or two of a row at a
+/// time; other spheres have the same share there.
 pub fn share_evenly(spheres: &mut [ContactSphere]) {
-    let common = |one: &ContactSphere, other: &ContactSphere| {
+    let common = |one: &ContactSphere, other: &ContactSphere, apart: f64| {
         if one.segment != other.segment {
             return 0.0;
         }
         let apart_m = (one.centre_from_lower_end_m - other.centre_from_lower_end_m).norm();
         let other_size_m = (one.radius_m - other.radius_m).abs();
-        (1.0 - (apart_m + other_size_m) / (APART * one.radius_m.min(other.radius_m))).max(0.0)
+        (1.0 - (apart_m + other_size_m) / (apart * one.radius_m.min(other.radius_m))).max(0.0)
     };
-    let crowd = |one: &ContactSphere| spheres.iter().map(|other| common(one, other)).sum::<f64>();
-    let crowds: Vec<f64> = spheres.iter().map(crowd).collect();
-    spheres.iter_mut().zip(crowds).for_each(|(sphere, crowd)| sphere.share /= crowd.max(1.0));
+    let crowd = |one: &ContactSphere, apart: f64| spheres.iter().map(|other| common(one, other, apart)).sum::<f64>();
+    let crowds: Vec<[f64; 2]> =
+        spheres.iter().map(|one| [APART, BAR_APART].map(|apart| crowd(one, apart).max(1.0))).collect();
+    for (sphere, [crowd, on_bars]) in spheres.iter_mut().zip(crowds) {
+        let crosses = is_of_limb(&sphere.part);
+        sphere.bar_share = if crosses { sphere.bar_share / on_bars } else { sphere.share / crowd };
+        sphere.share /= crowd;
+    }
+}
+
+/// Whether a part of this name is a row along a limb.
+fn is_of_limb(part: &str) -> bool {
+    ROWS.iter().any(|row| {
+        SIDES.iter().any(|side| part.strip_prefix(side).is_some_and(|rest| rest.strip_prefix('_') == Some(row.part)))
+    })
 }
 
 #[cfg(test)]
@@ -243,6 +260,25 @@ mod tests {
         }
         assert_eq!(shared(&[(0.0, 0.1); 5]), [0.2; 5]);
         assert_eq!(shared(&[(0.0, 0.1), (0.161, 0.1), (0.0, 0.02)]), [1.0; 3]);
+    }
+
+    /// Bars across a limb, at places evenly along it: the mean force is that of one sphere, whatever the spacing.
+    #[test]
+    fn a_bar_across_a_limb_meets_one_sphere_however_many_there_are() {
+        let (r, rho, depth) = (0.04, 0.015, 0.01);
+        for spacing in [0.6, 1.2, 2.4] {
+            let body = Body::male50();
+            let mut spheres = full(&body, body.spheres.clone(), spacing);
+            share_evenly(&mut spheres);
+            let row: Vec<_> = spheres.iter().filter(|sphere| sphere.part == "left_shin").collect();
+            let place = |i: usize| row[i].centre_from_lower_end_m;
+            let gap = (place(1) - place(0)).norm() / row[1].radius_m * r;
+            let share = row[row.len() / 2].bar_share;
+            let press = |x: f64| (depth - x * x / (2.0 * (r + rho))).max(0.0);
+            let at = |along: f64| (-9..=9).map(|i| share * press(along - f64::from(i) * gap)).sum::<f64>();
+            let mean = (0..1000).map(|i| at(gap * f64::from(i) / 1000.0)).sum::<f64>() / 1000.0;
+            assert!((mean / depth - 0.92).abs() < 0.06, "{spacing}: {}", mean / depth);
+        }
     }
 
     #[test]

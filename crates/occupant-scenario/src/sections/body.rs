@@ -422,6 +422,7 @@ fn changed(b: &mut Builder, body: &Body, mut sphere: ContactSphere, section: &Sp
         radius_m: si_or(&section.radius, sphere.radius_m),
         part: section.part.clone().unwrap_or(sphere.part),
         share: si_or(&section.share, sphere.share),
+        bar_share: si_or(&section.share, sphere.bar_share),
         ride: section.ride.as_ref().map_or(sphere.ride, |ride| plates::ride(b, &path, ride, body)),
         ..sphere
     }
@@ -456,5 +457,6 @@ fn own_sphere(b: &mut Builder, body: &Body, name: &str, section: &SphereSection)
     let sphere = ContactSphere::new(name, segment?, centre_m, radius_m);
     let part = section.part.clone().unwrap_or_else(|| name.to_owned());
     let ride = section.ride.as_ref().map_or_else(Ride::default, |ride| plates::ride(b, &path, ride, body));
-    Some(ContactSphere { part, share: si_or(&section.share, 1.0), ride, ..sphere })
+    let share = si_or(&section.share, 1.0);
+    Some(ContactSphere { part, share, bar_share: share, ride, ..sphere })
 }

@@ -26,7 +26,7 @@ fn what_is_wrong_with_columns_is_said_at_its_place() {
             "frames.{name}={{ kind = \"column\", axis = [1, 0, 0], mass = 3, stroke = [0, 0.1], force = [0, 900] }}"
         )
     };
-    let (two, three) = (more("two"), more("three"));
+    let [two, three, four, five] = ["two", "three", "four", "five"].map(more);
     let hangs = "frames.hangs={ parent = \"column\", path = { kind = \"fixed\" } }";
     let line = "path={ kind = \"table\", interpolation = \"linear\", columns = [\"t[s]\", \"x[m]\"], rows = [[0, 0], [0.05, 0.6], [0.2, 0.9]] }";
     for (changes, expected) in [
@@ -43,7 +43,7 @@ fn what_is_wrong_with_columns_is_said_at_its_place() {
         (&["frames.column.kind=\"colum\""], "did you mean \"column\"?"),
         (&["frames.column.parent=\"space\"", "bags.driver=null"], "no vehicle and no panel"),
         (&[hangs], "a frame carried by a column"),
-        (&[&two, &three], "3 columns"),
+        (&[&two, &three, &four, &five], "5 columns"),
         (&["bags.driver.frame=\"ground\""], "does not move with the first vehicle"),
         (&["bags.driver.frame=\"colunm\""], "did you mean \"column\"?"),
         (&[line, "bags.driver=null", "belts=null", "retractors=null", "triggers=null"], "without acceleration"),

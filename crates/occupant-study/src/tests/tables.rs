@@ -42,7 +42,7 @@ fn everything_wrong_with_a_table_is_told_at_once() {
         r#"error: `belts.lap` has nothing named `slck`
  --> samples.csv:1:1
   = help: did you mean `slack`?
-  = expected: the name of a parameter, or a path: one of anchor, anchors, buckle, d_ring, delta_b, k1, k2, lap, lap_above, length, limiter, locking_tongue, mu1, mu2, nodes, preset, pretension, pretensioner, release, retractor, side, slack, sphere, strength, webbing, worn
+  = expected: the name of a parameter, or a path: one of anchor, anchors, buckle, d_ring, d_ring_frame, delta_b, k1, k2, lap, lap_above, length, limiter, locking_tongue, mu1, mu2, nodes, preset, pretension, pretensioner, release, retractor, side, slack, sphere, strength, webbing, worn
 
 error: column `posture.head` without a unit
  --> samples.csv:1:33

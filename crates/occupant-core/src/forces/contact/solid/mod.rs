@@ -102,6 +102,14 @@ impl Shape {
         Shape::Prism { corners_m, half_width_m: half.z, rounding_m }
     }
 
+    /// Radius of a bar; none of what is no capsule or rim.
+    pub(crate) fn bar_radius_m(&self) -> Option<f64> {
+        match self {
+            Shape::Capsule { radius_m, .. } | Shape::Rim { tube_radius_m: radius_m, .. } => Some(*radius_m),
+            _ => None,
+        }
+    }
+
     /// A box that holds it.
     pub(crate) fn bounds(&self) -> Bounds {
         match self {

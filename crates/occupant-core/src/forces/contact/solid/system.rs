@@ -83,7 +83,11 @@ impl Solids<f64> {
                         let place = solid.group.as_deref().map_or(own, |group| *unions.entry(group).or_insert(own));
                         match all.pairs.get_mut(place) {
                             Some(union) => union.members.push(member),
-                            None => all.pairs.push(Union::new(member, &materials[solid.material], data.share)),
+                            None => {
+                                let is_thin = solid.shape.bar_radius_m().is_some_and(|bar_m| bar_m < data.radius_m);
+                                let share = if is_thin { data.bar_share } else { data.share };
+                                all.pairs.push(Union::new(member, &materials[solid.material], share));
+                            }
                         }
                     }
                     let pairs = pairs + first..pairs + all.pairs.len();
