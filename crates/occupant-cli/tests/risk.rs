@@ -142,7 +142,7 @@ fn rules_judge_with_margin_and_origin() {
     for word in ["MASH 2016", "12.20¹", "12.84", "-0.64", "FAIL"] {
         assert!(line.contains(word), "{word}: {line}");
     }
-    assert!(out.contains("¹ limit read in a source that quotes the rule"), "{out}");
+    assert!(out.contains("¹ limit from a source that quotes the rule"), "{out}");
     assert!(!out.contains("NCHRP"), "{out}");
     assert!(out.contains("MASH 2016: AASHTO, Manual for Assessing Safety Hardware, 2nd edition, 2016"), "{out}");
     // without a rule all are shown, and none decides

@@ -253,8 +253,9 @@ impl<S: Scalar> SelfPair<S> {
             on.moment = V3::select(live, on.moment + arm.cross(force), on.moment);
             load.press(site, Use::Contact, force, live);
         }
-        let carried =
-            at.k.joint_velocity[other.segment] + at.k.omega[other.segment].cross(point - at.k.joint[other.segment]);
+        // with what the second sphere rides on
+        let (_, other_centre, other_velocity) = other.place(at.k, Use::Contact);
+        let carried = other_velocity + at.k.omega[other.segment].cross(point - other_centre);
         load.hand_over([other.segment, one.segment], force.dot(carried), live);
         let sums = &mut load.power_at(one.segment).sums;
         let (pressing, rubbing) = (touch.normal_force * touch.closing, touch.friction.dot(touch.slip));
