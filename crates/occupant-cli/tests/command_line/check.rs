@@ -6,7 +6,7 @@ fn it_shows_what_will_be_simulated() {
     let output = answer(folder.path(), &["check", "case.toml"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let text = out(&output);
-    assert!(!text.contains("left_thigh ") && text.contains("add --all"), "{text}");
+    assert!(!text.contains("5–95 % range") && text.contains("add --all"), "{text}");
     for words in ["31 degrees of freedom", "12 segments", "sinks", "touches at", "fastest time scale"] {
         assert!(text.contains(words), "{words} is missing in\n{text}");
     }

@@ -292,7 +292,7 @@ pub(crate) struct CarSeatSection {
     /// Height of the lap belt above its usual position on the pelvis; negative is below; 0 if absent.
     pub(crate) lap_above: Option<Length>,
     /// Upper anchor (D-ring) of the belt, from the H-point. If absent it is on the pillar, in line with the seat's
-    /// design position.
+    /// design position; with `belt = "seat"` it is at the upper outer corner of the back.
     #[serde(default)]
     pub(crate) d_ring: AnchorSection,
     /// Buckle, from the H-point; `outboard` is negative, towards the inner side.
