@@ -262,7 +262,8 @@ mod tests {
         assert_eq!(shared(&[(0.0, 0.1), (0.161, 0.1), (0.0, 0.02)]), [1.0; 3]);
     }
 
-    /// Bars across a limb, at places evenly along it: the mean force is that of one sphere, whatever the spacing.
+    /// Bars across a limb, at places evenly along it: the mean force is 0.92 of that of one sphere, whatever the spacing. The spacing of
+    /// a row is up to 7 % off what was asked for, because a whole number of spheres fills a limb.
     #[test]
     fn a_bar_across_a_limb_meets_one_sphere_however_many_there_are() {
         let (r, rho, depth) = (0.04, 0.015, 0.01);
@@ -277,7 +278,7 @@ mod tests {
             let press = |x: f64| (depth - x * x / (2.0 * (r + rho))).max(0.0);
             let at = |along: f64| (-9..=9).map(|i| share * press(along - f64::from(i) * gap)).sum::<f64>();
             let mean = (0..1000).map(|i| at(gap * f64::from(i) / 1000.0)).sum::<f64>() / 1000.0;
-            assert!((mean / depth - 0.92).abs() < 0.06, "{spacing}: {}", mean / depth);
+            assert!((mean / depth - 0.92).abs() < 0.08, "{spacing}: {}", mean / depth);
         }
     }
 

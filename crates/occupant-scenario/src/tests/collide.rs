@@ -201,7 +201,7 @@ fn presets_keep_to_their_classes() {
         for car in ["en900", "en900\"\nmass = \"1300 kg"] {
             let drives = drives(car, kmh, &format!("kind = \"cushion\"\npreset = \"en1317-3-{kmh}\""));
             let (slid, last) = (&drives.outcome.slides[0], drives.outcome.rides[0].last());
-            assert!((0.4..0.95).contains(&(slid.most_m / stroke_m)), "{car} {kmh}: {slid:?}");
+            assert!((0.4..1.0).contains(&(slid.most_m / stroke_m)), "{car} {kmh}: {slid:?}");
             // measured 4.3 to 5.5 m/s: at most what a returned share of 0.05 gives, √0.05 of the speed
             assert!(last.velocity_m_s.norm() < 0.23 * kmh / 3.6, "{car} {kmh}: {:?}", last.velocity_m_s);
         }

@@ -112,7 +112,7 @@ fn problems_are_reported_as_of_the_override() {
   | ^
   = in: belts.lap
   = expected: `sphere`, `anchors`, `k1`, `delta_b`, `k2`, `slack`, `length`, `mu1`, `mu2`, \
-             `nodes`, `webbing`, `pretension`, `limiter`, `release`, `strength`, `preset`, `locking_tongue`, `lap_above`, `side`, `d_ring`, `buckle`, `anchor`, `lap`, `retractor`, `pretensioner` or `worn`",
+             `nodes`, `webbing`, `pretension`, `limiter`, `release`, `strength`, `preset`, `locking_tongue`, `lap_above`, `side`, `d_ring`, `d_ring_frame`, `buckle`, `anchor`, `lap`, `retractor`, `pretensioner` or `worn`",
         ),
         (
             "belts.lap.anchors[2][0]=5",
