@@ -148,6 +148,7 @@ impl<S: Scalar> Spring<S> {
     }
 
     /// Work of loading up to a deformation, J.
+    #[inline(always)]
     pub(crate) fn work(&self, top: S) -> S {
         let (o, half) = (S::zero(), S::of(0.5));
         let (a, b) = (top.min(self.limit).max(o), (top - self.limit).max(o));

@@ -131,6 +131,7 @@ impl<S: Scalar> ForceLaw<S> {
     }
 
     /// Work of loading up to the largest depth, J.
+    #[inline(always)]
     fn work(&self, meeting: &Meeting<S>) -> S {
         let top = meeting.depth.max(meeting.greatest);
         match self {
@@ -148,7 +149,10 @@ impl<S: Scalar> MaterialLaw<S> {
         if let Some(breaks) = &self.breaks {
             let (is_broken, o) = (past[breaks.pane].is_broken(), S::zero());
             if S::any(is_broken) {
-                let left = breaks.left.as_ref().map_or((o, o), |left| left.respond(meeting));
+                let left = match &breaks.left {
+                    Some(left) => left.respond(meeting),
+                    None => (o, o),
+                };
                 (force, energy) = (S::select(is_broken, left.0, force), S::select(is_broken, left.1, energy));
             }
         }
@@ -171,8 +175,12 @@ impl<S: Scalar> MaterialLaw<S> {
     }
 
     /// What a sphere takes of the limit of a pane while it is whole, as a part of it; of another pane or of what never breaks 0.
+    #[inline(always)]
     pub(super) fn strain(&self, meeting: &Meeting<S>, pane: usize) -> S {
-        let Some(breaks) = self.breaks.as_ref().filter(|breaks| breaks.pane == pane) else { return S::zero() };
+        let Some(breaks) = &self.breaks else { return S::zero() };
+        if breaks.pane != pane {
+            return S::zero();
+        }
         let [per_newton, per_joule] = breaks.per;
         meeting.weight * (self.force.respond(meeting).0 * per_newton + self.force.work(meeting) * per_joule)
     }

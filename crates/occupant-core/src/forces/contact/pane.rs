@@ -51,12 +51,16 @@ impl PairHistory<f64> {
 /// Where a pane has broken between two commits; panes stand behind all else.
 #[inline(always)]
 pub(super) fn any_broke<S: Scalar>(before: &[PairHistory<S>], now: &[PairHistory<S>]) -> S::Mask {
-    let is_pane = |(past, _): &(&PairHistory<S>, &PairHistory<S>)| S::any(S::of(WHOLE - 0.5).lt(past.phase));
-    let panes = before.iter().zip(now).rev().take_while(is_pane);
-    panes.fold(S::truth(false), |broke, (before, now)| {
-        let [was, is] = [before.is_broken(), now.is_broken()];
-        broke | (was & !is) | (is & !was)
-    })
+    // loops: closures of iterators are functions of their own, without the caller's vector instructions
+    let mut broke = S::truth(false);
+    for place in (0..before.len().min(now.len())).rev() {
+        if !S::any(S::of(WHOLE - 0.5).lt(before[place].phase)) {
+            break;
+        }
+        let (was, is) = (before[place].is_broken(), now[place].is_broken());
+        broke = broke | (was & !is) | (is & !was);
+    }
+    broke
 }
 
 impl ContactSystem<f64> {
@@ -113,6 +117,7 @@ impl<S> ContactSystem<S> {
 
 impl<S: Scalar> ContactSystem<S> {
     /// Takes over at a commit what presses on the panes that are whole; breaks those that bear no more.
+    #[inline(always)]
     pub(super) fn strain_panes(&self, at: &Instant<'_, S>, past: &mut [PairHistory<S>], hints: &ContactHints<S>) {
         for (place, pane) in (self.first_pane()..).zip(&self.panes) {
             let is_whole = !past[place].is_broken();
@@ -128,7 +133,7 @@ impl<S: Scalar> ContactSystem<S> {
                 }
             }
             let (mut most, mut by) = (S::zero(), S::zero());
-            for (n, strain) in strains.iter().enumerate().take(pane.segments) {
+            for (n, strain) in strains[..pane.segments].iter().enumerate() {
                 by = S::select(most.lt(*strain), S::of(n as f64), by);
                 most = most.max(*strain);
             }
@@ -140,6 +145,7 @@ impl<S: Scalar> ContactSystem<S> {
     }
 
     /// What the sphere of a group takes of the limit of a pane through pair `i`.
+    #[inline(always)]
     fn strain(&self, group: &Group, i: usize, pane: usize, at: &Instant<'_, S>, past: &mut [PairHistory<S>]) -> S {
         let (mut sphere, radius, o) = (Sphere::new(self, group, at), at.spheres[group.sphere].radius, S::zero());
         let Some(pair) = self.pairs.get(i) else {
@@ -162,7 +168,10 @@ impl<S: Scalar> ContactSystem<S> {
         let (offset, nearest) = pair.nearest(approach.centre);
         let weight = S::select(live, weight(offset.distance, radius), o);
         let meeting = approach.meeting(pair.normal, radius, depth, past[i].greatest, weight);
-        let parts = pair.parts.iter().enumerate();
-        parts.fold(o, |sum, (k, part)| sum + S::select(is_part(nearest, k), part.law.strain(&meeting, pane), o))
+        let mut sum = o;
+        for (k, part) in pair.parts.iter().enumerate() {
+            sum += S::select(is_part(nearest, k), part.law.strain(&meeting, pane), o);
+        }
+        sum
     }
 }

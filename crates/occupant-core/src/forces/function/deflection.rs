@@ -136,12 +136,16 @@ impl<S: Scalar> DeflectionLaw<S> {
     }
 
     /// Work of loading up to a deformation, J, without factors of speed and damper.
+    #[inline(always)]
     pub(crate) fn work(&self, top: S) -> S {
-        let of = |law: &FunctionLaw<S>| {
-            let [_, kept, lost] = law.returned_to(top);
-            kept + lost
-        };
-        self.spike.as_ref().map_or(S::zero(), of) + of(&self.loading)
+        let [_, kept, lost] = self.loading.returned_to(top);
+        match &self.spike {
+            None => kept + lost,
+            Some(spike) => {
+                let [_, of_spike, gone] = spike.returned_to(top);
+                of_spike + gone + (kept + lost)
+            }
+        }
     }
 
     #[inline(always)]
