@@ -141,10 +141,13 @@ pub trait Element: Copy + Debug {
     /// Lanes where any element has switched between two memories of all.
     #[inline(always)]
     fn any_switched<S: Scalar>(before: &[Self::Past<S>], now: &[Self::Past<S>]) -> S::Mask {
-        before.iter().zip(now).fold(S::truth(false), |mask, (before, now)| {
+        // a loop: the closure of a fold is a function of its own, without the caller's vector instructions
+        let mut mask = S::truth(false);
+        for (before, now) in before.iter().zip(now) {
             let (before, now) = (Self::switches::<S>(before), Self::switches::<S>(now));
-            mask | before.lt(now) | now.lt(before)
-        })
+            mask = mask | before.lt(now) | now.lt(before);
+        }
+        mask
     }
 
     /// Fraction of the interval between `before` and `now`, at the times `times_s`, at which the first switch of the element

@@ -286,8 +286,13 @@ impl<S: Scalar> Pair<S> {
     /// Where nothing is left of the part that each lane is nearest to.
     #[inline(always)]
     fn is_gone(&self, part: S, past: &[PairHistory<S>]) -> S::Mask {
-        let parts = self.parts.iter().enumerate().filter(|(_, p)| p.law.breaks.is_some());
-        parts.fold(S::truth(false), |gone, (i, p)| gone | is_part(part, i) & p.law.is_gone(past))
+        let mut gone = S::truth(false);
+        for (i, own) in self.parts.iter().enumerate() {
+            if own.law.breaks.is_some() {
+                gone = gone | is_part(part, i) & own.law.is_gone(past);
+            }
+        }
+        gone
     }
 
     /// Force and friction of the part that each lane is nearest to.
