@@ -99,8 +99,8 @@ pub struct Group {
     pub pairs: std::ops::Range<usize>,
 }
 
-/// What a pair remembers between steps, or a sphere of one of the solids that it meets as one, or a pane: of a pane the phase is
-/// that of [`Pane`], and `greatest` is the part of its limit that the segment nearest to it has taken.
+/// Stored state of a pair between steps, of a sphere on one of several solids met as one, or of a pane; `greatest` of a pane is
+/// the largest fraction of its limit that a segment has reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairHistory<S> {
     /// [`OPEN`], [`TOUCHING`] or [`PASSED`], or the remembered face of a solid.
