@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::done;
+use crate::common::{answer, done, err};
 
 /// A sedan alone at a speed, and what else stands in `[drive]`.
 fn folder_with(drive: &str) -> tempfile::TempDir {
@@ -47,6 +47,9 @@ fn a_drive_is_written_for_viewers() {
     let summary = mcap::Summary::read(&bytes).expect("a summary").expect("a summary");
     let names: Vec<&str> = summary.attachment_indexes.iter().map(|own| own.name.as_str()).collect();
     assert_eq!(names, ["resolved.toml", "report.json"]);
+    // it holds no occupant
+    let refused = answer(folder.path(), &["view", "case.mcap"]);
+    assert!(err(&refused).contains("case.mcap contains a drive without occupants"), "{}", err(&refused));
     // the same scenario, the same bytes
     done(folder.path(), &["drive", "case.toml", "-o", "again.mcap", "--interval", "10 ms"]);
     assert!(fs::read(folder.path().join("again.mcap")).expect("a file") == bytes);

@@ -67,6 +67,11 @@ impl Results {
         };
         let bytes = input_file::read(path).map_err(|e| if is_there { e } else { absent() })?;
         let mut run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
+        if run.is_drive {
+            let found = format!("{} contains a drive without occupants", path.display());
+            let help = "`occupant run` of its scenario simulates the occupants; MCAP viewers show the drive";
+            return Err(Failure::with_help(found, help));
+        }
         if run.run.is_empty() || run.checkpoints.is_empty() {
             return Err(no_results(path, &format!("it contains no outputs of a run{}", run.because())));
         }

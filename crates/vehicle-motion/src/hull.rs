@@ -296,7 +296,7 @@ impl Hull {
     /// The sphere of a depth; none of an edge of a wheel.
     fn sphere_of(&self, number: usize) -> Option<&Sphere> {
         let n = self.spheres.len();
-        let in_barrier = || number.checked_sub(n + 8 * FACES).map(|i| i % n);
+        let in_barrier = || number.checked_sub(n + 8 * FACES)?.checked_rem(n);
         if number < n { self.spheres.get(number) } else { self.spheres.get(in_barrier()?) }
     }
 }

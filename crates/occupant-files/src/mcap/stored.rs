@@ -9,6 +9,7 @@ use occupant_core::results::summary::RunStatus;
 
 use super::about::{RESULT, RUN};
 use super::checkpoint::{self, TOPIC};
+use super::drive::DRIVE;
 use super::records::{Frame, Index, Record};
 
 /// Content of a result file, or what remains of an interrupted run.
@@ -18,6 +19,8 @@ pub struct StoredRun {
     pub run: BTreeMap<String, String>,
     /// The entries of `occupant.result`; none if the run was cut off.
     pub result: Option<BTreeMap<String, String>>,
+    /// Whether the file holds a drive without occupants.
+    pub is_drive: bool,
     /// Attachments by name.
     pub attachments: BTreeMap<String, Vec<u8>>,
     /// Checkpoints in the file's order.
@@ -126,6 +129,7 @@ impl StoredRun {
             }
             Record::Metadata { name, entries } if name == RUN => self.run = entries,
             Record::Metadata { name, entries } if name == RESULT => self.result = Some(entries),
+            Record::Metadata { name, .. } if name == DRIVE => self.is_drive = true,
             Record::Attachment { name, data } => _ = self.attachments.insert(name, data.to_owned()),
             _ => {}
         }

@@ -29,8 +29,14 @@ pub struct Dimension {
     pub ends_m: [[f64; 3]; 2],
 }
 
+/// A choice as a scenario writes it.
+fn word(choice: impl Serialize) -> Size {
+    let written = serde_json::to_value(choice).ok();
+    Size::Word(written.as_ref().and_then(|value| value.as_str()).unwrap_or_default().to_owned())
+}
+
 /// Size of a dimension.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Size {
     /// A distance, m.
     #[serde(rename = "distance_m")]
@@ -46,7 +52,7 @@ pub enum Size {
     Moment(f64),
     /// No size: what was chosen.
     #[serde(rename = "is")]
-    Word(&'static str),
+    Word(String),
 }
 
 /// Dimensions of all cars of a scenario; none if their text is invalid.
@@ -68,10 +74,10 @@ pub(crate) fn dimensions(sources: &Sources, root: &Node) -> Vec<Dimension> {
 impl Car<'_> {
     fn dimensions(&self, riders: &[&Rider]) -> Vec<Dimension> {
         let seats = self.seats(riders);
-        let chosen = |name: &str, word| self.dimension(name, "", Size::Word(word), [[0.0; 3]; 2]);
+        let chosen = |name: &str, word| self.dimension(name, "", word, [[0.0; 3]; 2]);
         let mut all = vec![
-            chosen("class", self.section.class.unwrap_or_default().word()),
-            chosen("years", self.section.years.unwrap_or_default().word()),
+            chosen("class", word(self.section.class.unwrap_or_default())),
+            chosen("years", word(self.section.years.unwrap_or_default())),
         ];
         if let Some(driver) = seats.iter().find(|seat| seat.name == "driver" && seat.is_taken()) {
             self.of_driver(driver.h[1], &mut all);
@@ -155,8 +161,8 @@ impl Car<'_> {
         let belt = own.belt.unwrap_or_default();
         let other = |key: &str, size: Size| self.dimension(&name(key), "", size, [seat.h; 2]);
         let moment = own.back_moment.as_ref().map(|moment| Size::Moment(moment.si()));
-        all.push(other("back_moment", moment.unwrap_or(Size::Word("fixed"))));
-        all.push(other("belt", Size::Word(belt.word())));
+        all.push(other("back_moment", moment.unwrap_or_else(|| word("fixed"))));
+        all.push(other("belt", word(belt)));
         if belt == CarBelt::None {
             return;
         }
@@ -178,12 +184,11 @@ impl Car<'_> {
         all.push(amount("slack", si_or(&own.slack, 0.0)));
         if belt != CarBelt::Lap {
             let limiter = own.limiter.as_ref().map(|limiter| Size::Force(limiter.si()));
-            all.push(other("limiter", limiter.unwrap_or(Size::Word("none"))));
+            all.push(other("limiter", limiter.unwrap_or_else(|| word("none"))));
             all.push(amount("film", si_or(&own.film, ride::FILM_M)));
             all.push(amount("pretensioner", si_or(&own.pretensioner, 0.0)));
             all.push(amount("lap_above", si_or(&own.lap_above, 0.0)));
-            let clamps = own.locking_tongue == Some(true);
-            all.push(other("locking_tongue", Size::Word(if clamps { "true" } else { "false" })));
+            all.push(other("locking_tongue", Size::Word((own.locking_tongue == Some(true)).to_string())));
         }
     }
 }

@@ -191,19 +191,32 @@ impl Seat {
         let mut text =
             format!("[seats.{name}]\ncushion = \"{name}_{cushion}\"\nback = \"{name}_back\"\ny = {}\n\n", m(self.h[1]));
         if let Some(factor) = self.own.foam.as_ref().map(|factor| factor.si()) {
-            text += &format!(
-                "[materials.{name}_foam]\nk1 = \"{} kN/m\"\ndelta_b = \"45 mm\"\nk2 = \"{} kN/m\"\nmu1 = 0.3\n\
-                 friction = 0.8\nfriction_speed = \"0.3 m/s\"\n\n\
-                 [materials.{name}_back]\ndepth = [\"0 mm\", \"20 mm\", \"110 mm\", \"160 mm\"]\n\
-                 force = [\"0 N\", \"{} N\", \"{} N\", \"{} N\"]\nreturned = 0.3\n\
-                 friction = 0.8\nfriction_speed = \"0.3 m/s\"\n\n",
-                12.0 * factor,
-                100.0 * factor,
-                240.0 * factor,
-                800.0 * factor,
-                3800.0 * factor,
-            );
+            text += &["foam", "back"].map(|part| scaled(part, &format!("{name}_{part}"), factor)).concat();
         }
         text
+    }
+}
+
+/// A material of cars under another name, with its forces multiplied.
+fn scaled(material: &str, name: &str, factor: f64) -> String {
+    let all: toml::Table = include_str!("materials.toml").parse().unwrap_or_default();
+    let own = all.get("materials").and_then(|all| all.get(material)?.as_table().cloned());
+    let mut own = own.unwrap_or_default();
+    for key in ["k1", "k2", "force"] {
+        own.get_mut(key).into_iter().for_each(|value| scale(value, factor));
+    }
+    format!("[materials.{name}]\n{own}\n")
+}
+
+/// Multiplies a quantity such as "12 kN/m", or each of a list.
+fn scale(value: &mut toml::Value, factor: f64) {
+    match value {
+        toml::Value::Array(items) => items.iter_mut().for_each(|item| scale(item, factor)),
+        toml::Value::String(text) => {
+            let Some((number, unit)) = text.split_once(' ') else { return };
+            let number = number.parse::<f64>().unwrap_or(f64::NAN);
+            *text = format!("{} {unit}", number * factor);
+        }
+        _ => {}
     }
 }

@@ -30,20 +30,6 @@ pub(crate) enum CarClass {
     Sled,
 }
 
-impl CarClass {
-    /// As it is written.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            CarClass::Small => "small",
-            CarClass::Sedan => "sedan",
-            CarClass::Suv => "suv",
-            CarClass::Van => "van",
-            CarClass::Pickup => "pickup",
-            CarClass::Sled => "sled",
-        }
-    }
-}
-
 /// When a car was built: what of belts, bags and head restraints it has by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) enum CarYears {
@@ -60,18 +46,6 @@ pub(crate) enum CarYears {
     #[default]
     #[serde(rename = "present")]
     Present,
-}
-
-impl CarYears {
-    /// As they are written.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            CarYears::Seventies => "1970s",
-            CarYears::Nineties => "1990s",
-            CarYears::TwoThousands => "2000s",
-            CarYears::Present => "present",
-        }
-    }
 }
 
 /// The interior of a car: seats, belts, air bags, steering wheel, panel and body shell of a class, with your own measurements. It is
@@ -239,18 +213,6 @@ pub(crate) enum CarBelt {
     Lap,
     /// No belt, or a belt that is not worn.
     None,
-}
-
-impl CarBelt {
-    /// As it is written.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            CarBelt::ThreePoint => "three_point",
-            CarBelt::Seat => "seat",
-            CarBelt::Lap => "lap",
-            CarBelt::None => "none",
-        }
-    }
 }
 
 /// A seat of a car.

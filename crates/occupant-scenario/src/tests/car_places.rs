@@ -124,11 +124,11 @@ fn years_leave_out_what_cars_did_not_have() {
 }
 
 /// Of the table of `check`: what is no distance.
-fn word(text: &str, name: &str) -> &'static str {
+fn word(text: &str, name: &str) -> String {
     let all = load(text).unwrap_or_else(|said| panic!("{said}")).dimensions();
     let found = all.iter().find(|own| own.name == name).unwrap_or_else(|| panic!("no {name} among {all:?}"));
-    let Size::Word(word) = found.size else { panic!("{found:?}") };
-    word
+    let Size::Word(word) = &found.size else { panic!("{found:?}") };
+    word.clone()
 }
 
 #[test]

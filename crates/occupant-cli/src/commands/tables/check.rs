@@ -177,7 +177,7 @@ fn dimensions(car: &[Dimension], units: Units) -> String {
             Size::Angle(rad) => format!("{:.1}°", rad.to_degrees()),
             Size::Force(n) => units.say(n, "N", 0),
             Size::Moment(n_m) => units.say(n_m, "N·m", 0),
-            Size::Word(word) => word.to_owned(),
+            Size::Word(ref word) => word.clone(),
         };
         let code = if own.code.is_empty() { NONE } else { own.code };
         // a name of several words is no key
