@@ -30,6 +30,18 @@ pub struct Car {
     pub ackermann: f64,
     /// Outline, crush and hull.
     pub body: Body,
+    /// People whose weight its springs and tyres carry at rest, but whose mass is not in `mass_kg`: they push the vehicle by
+    /// a [`Wrench`](crate::world::Wrench).
+    pub riders: Option<Riders>,
+}
+
+/// People who push their vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Riders {
+    /// Mass of all of them, kg.
+    pub mass_kg: f64,
+    /// Their centre of gravity at rest from that of the vehicle, body axes, m.
+    pub place_m: V3,
 }
 
 /// Two wheels on slides, mirrored about the middle plane.
@@ -175,6 +187,7 @@ impl Car {
             drive_share: [0.5, 0.5, 0.0, 0.0],
             ackermann: 1.0,
             body: Body::sized([0.0; 3], 0.0, Crush::of_faces(none, none, none)),
+            riders: None,
         }
     }
 
@@ -193,10 +206,25 @@ impl Car {
         0.25 * (self.front.track_m + self.rear.track_m) / self.height_m
     }
 
-    /// Static wheel loads of each axle on level ground, N: front, rear.
+    /// Static wheel loads of each axle on level ground, without riders, N: front, rear.
     pub fn static_loads_n(&self) -> [f64; 2] {
         let weight = 0.5 * self.mass_kg * GRAVITY_M_S2 / self.wheelbase_m();
         [-self.rear.ahead_m * weight, self.front.ahead_m * weight]
+    }
+
+    /// Static load of each wheel on level ground with riders, N: springs level a vehicle whose riders sit to one side.
+    pub fn wheel_loads_n(&self) -> [f64; WHEELS] {
+        let own = self.static_loads_n();
+        let mut loads = [own[0], own[0], own[1], own[1]];
+        let Some(riders) = &self.riders else { return loads };
+        let weight = riders.mass_kg * GRAVITY_M_S2;
+        let behind = (self.front.ahead_m - riders.place_m.x) / self.wheelbase_m();
+        for (i, load) in loads.iter_mut().enumerate() {
+            let share = if i < 2 { 1.0 - behind } else { behind };
+            let side = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
+            *load += weight * share * (0.5 + side * riders.place_m.y / self.axle(i).track_m);
+        }
+        loads
     }
 
     /// The vehicle with a further load at a position in body axes, relative to the present centre of gravity, and the
@@ -213,6 +241,9 @@ impl Car {
         loaded.body.shift(shift_m.x, shift_m.y);
         for axle in [&mut loaded.front, &mut loaded.rear] {
             axle.ahead_m -= shift_m.x;
+        }
+        if let Some(riders) = &mut loaded.riders {
+            riders.place_m -= shift_m;
         }
         (loaded, shift_m)
     }
@@ -267,6 +298,13 @@ impl Car {
         if !(self.front.ahead_m > 0.0 && self.rear.ahead_m < 0.0) {
             return Err(CarError::Axles { front_m: self.front.ahead_m, rear_m: self.rear.ahead_m });
         }
+        if let Some(riders) = &self.riders {
+            let lightest_n = self.wheel_loads_n().into_iter().fold(f64::INFINITY, f64::min);
+            let least = lightest_n.min(riders.mass_kg);
+            if !(least >= 0.0 && least.is_finite() && riders.place_m.sum().is_finite()) {
+                return Err(CarError::Riders { mass_kg: riders.mass_kg, lightest_n });
+            }
+        }
         let moments = self.inertia_kg_m2.symmetric_eigenvalues();
         let [x, y, z] = [moments.x, moments.y, moments.z];
         let is_inertia = x > 0.0 && y > 0.0 && z > 0.0 && x + y >= z && y + z >= x && z + x >= y;
@@ -319,6 +357,16 @@ pub enum CarError {
         front_m: f64,
         /// Rear, m.
         rear_m: f64,
+    },
+    /// Riders who would tip the vehicle.
+    #[error(
+        "riders of {mass_kg} kg leave a wheel a load of {lightest_n} N at rest; expected at least 0 on every wheel"
+    )]
+    Riders {
+        /// Their mass, kg.
+        mass_kg: f64,
+        /// Load of the lightest wheel, N.
+        lightest_n: f64,
     },
     /// Impossible moments of inertia.
     #[error("the inertia is impossible: it must be symmetric, with positive moments, none above the sum of the others")]

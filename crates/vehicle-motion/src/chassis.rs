@@ -92,7 +92,7 @@ pub struct Chassis {
     brake_share: [f64; WHEELS],
     drive_share: [f64; WHEELS],
     height_m: f64,
-    static_loads_n: [f64; 2],
+    static_loads_n: [f64; WHEELS],
 }
 
 fn skew(v: &V3) -> Matrix3<f64> {
@@ -107,11 +107,11 @@ impl Chassis {
     pub fn new(car: &Car) -> Result<Self, CarError> {
         car.check()?;
         let tyre = car.tyre;
-        let loads = car.static_loads_n();
+        let loads = car.wheel_loads_n();
         let wheel = |i: usize| {
             let axle = *car.axle(i);
             let side = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
-            let (half_m, load_n) = (0.5 * axle.track_m, loads[i / 2]);
+            let (half_m, load_n) = (0.5 * axle.track_m, loads[i]);
             let centre_m =
                 V3::new(axle.ahead_m, side * half_m, car.height_m - (tyre.radius_m - load_n / tyre.stiffness_n_per_m));
             // the contact moves at right angles to the line to the roll centre
@@ -152,7 +152,7 @@ impl Chassis {
 
     /// Spin of a wheel that rolls at a speed under its load at rest, rad/s.
     pub fn rolling_spin_rad_s(&self, wheel: usize, speed_m_s: f64) -> f64 {
-        let depth_m = self.static_loads_n[wheel / 2] / self.tyre.stiffness_n_per_m;
+        let depth_m = self.static_loads_n[wheel] / self.tyre.stiffness_n_per_m;
         speed_m_s / (self.tyre.radius_m - depth_m / 3.0)
     }
 

@@ -91,6 +91,15 @@ pub struct Outside {
 }
 
 impl State {
+    /// The same motion told of another point of the body: `shift_m` from the origin, body axes, m.
+    #[must_use]
+    pub fn seen_from(&self, shift_m: V3) -> Self {
+        let (attitude, mut state) = (self.attitude(), *self);
+        state.put(0, self.position_m() + attitude * shift_m);
+        state.put(7, self.velocity_m_s() + attitude * self.rotation_rad_s().cross(&shift_m));
+        state
+    }
+
     /// All numbers 0, upright.
     pub fn zero() -> Self {
         let mut numbers = [0.0; NUMBERS];

@@ -22,6 +22,8 @@ pub(crate) struct Vehicle {
     pub driver: Driver,
     pub body: Body,
     pub mass_kg: f64,
+    /// With riders: what the driver speeds up.
+    all_kg: f64,
     pub yaw_kg_m2: f64,
     rear_m: f64,
     radius_m: f64,
@@ -58,6 +60,7 @@ impl Vehicle {
             driver,
             body: car.body.clone(),
             mass_kg: car.mass_kg,
+            all_kg: car.riders.map_or(car.mass_kg, |riders| car.mass_kg + riders.mass_kg),
             yaw_kg_m2: car.inertia_kg_m2[(2, 2)],
             rear_m: car.rear.ahead_m,
             radius_m: car.tyre.radius_m,
@@ -81,7 +84,7 @@ impl Vehicle {
         if let Some(wanted) =
             self.driver.speed_m_s.as_ref().and_then(|_| self.driver.speeds_up_m_s2(time_s, ahead_m_s(), memory.hit_s))
         {
-            let torque_n_m = self.mass_kg * wanted * self.radius_m;
+            let torque_n_m = self.all_kg * wanted * self.radius_m;
             pedals = [(-torque_n_m).max(0.0), torque_n_m.max(0.0)];
         }
         let [(from_s, from), (to_s, to)] = memory.steer;

@@ -5,7 +5,7 @@ mod common;
 use common::proof_car;
 use vehicle_motion::barrier::{Barrier, Wall};
 use vehicle_motion::body::{Body, Crush, Row, Stiffness};
-use vehicle_motion::car::Car;
+use vehicle_motion::car::{Car, CarError, Riders};
 use vehicle_motion::driver::{Driver, Table};
 use vehicle_motion::run::{Ride, Start};
 use vehicle_motion::world::{Begin, Entry, World, Wrench};
@@ -102,4 +102,29 @@ fn a_load_goes_in_and_out() {
     assert!(
         (after.body.front_m - before.body.front_m).abs() < 1e-12 && (after.height_m - before.height_m).abs() < 1e-12
     );
+}
+
+/// Riders whose weight presses on the floor as a wrench: the car stands as one that carries them, and drives away level.
+#[test]
+fn riders_press_a_car_as_their_mass_does() {
+    let (mass_kg, place) = (150.0, V3::new(-0.3, 0.25, -0.1));
+    let mut light = proof_car(0.8);
+    light.riders = Some(Riders { mass_kg, place_m: place });
+    let loads = light.wheel_loads_n();
+    assert!((loads.iter().sum::<f64>() - 1650.0 * G).abs() < 1e-9);
+    let [front, rear] = proof_car(0.8).with_load(mass_kg, place).0.static_loads_n();
+    assert!((loads[0] + loads[1] - 2.0 * front).abs() < 1e-9 && (loads[2] + loads[3] - 2.0 * rear).abs() < 1e-9);
+    assert!(loads[1] > loads[0] && loads[3] > loads[2]);
+    let constant = [0.0, 0.0, mass_kg * G, 0.0, 0.0, 0.0].map(Table::constant);
+    let push = Some(Wrench { about_m: place, components: constant });
+    let start = Start { speed_m_s: 10.0, ..Start::default() };
+    let entry = Entry { push, ..Entry::new(light.clone(), Driver::coasting(), Begin::At(start)) };
+    let ride = World { cars: vec![entry], ..World::default() }.run(2.0).unwrap().rides.swap_remove(0);
+    for station in ride.stations() {
+        let [_, pitch, roll] = station.state.yaw_pitch_roll_rad();
+        // the slides lean, so that sideways preload meets the tyres: 2e-5 rad
+        assert!(pitch.abs() < 1e-4 && roll.abs() < 1e-4 && (station.position_m.z + 0.55).abs() < 1e-4);
+    }
+    light.riders = Some(Riders { mass_kg, place_m: V3::new(-30.0, 0.0, 0.0) });
+    assert!(matches!(light.check(), Err(CarError::Riders { .. })));
 }

@@ -58,6 +58,8 @@ impl Law {
 pub struct Series {
     knots: Vec<Knot>,
     returned: [f64; 2],
+    /// Energy per width below the first knot after the origin, J/m.
+    toe: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,18 +100,23 @@ impl Series {
             let energy = knots.last().map_or(0.0, |k| k.energy + 0.5 * (k.force + force) * (depth_m - k.depth_m));
             knots.push(Knot { depth_m, force, first_m, energy });
         }
-        Series { knots, returned: first.returned }
+        let mut series = Series { knots, returned: first.returned, toe: 0.0 };
+        series.toe = series.energy(series.knots[1].depth_m);
+        series
     }
 
-    fn piece(&self, is_before: impl Fn(&Knot) -> bool) -> [Knot; 2] {
-        let i = self.knots[1..self.knots.len() - 1].partition_point(is_before);
-        [self.knots[i], self.knots[i + 1]]
+    /// The piece behind the last inner knot that comes before; there are no more than a few.
+    fn piece(&self, is_before: impl Fn(&Knot) -> bool) -> [&Knot; 2] {
+        let mut i = 0;
+        while i + 2 < self.knots.len() && is_before(&self.knots[i + 1]) {
+            i += 1;
+        }
+        [&self.knots[i], &self.knots[i + 1]]
     }
 
     /// Force per width at a depth on loading, N/m.
     pub fn load(&self, depth_m: f64) -> f64 {
-        let [from, to] = self.piece(|knot| knot.depth_m < depth_m);
-        from.force + (to.force - from.force) * (depth_m - from.depth_m) / (to.depth_m - from.depth_m)
+        load_in(self.piece(|knot| knot.depth_m < depth_m), depth_m)
     }
 
     /// Depth at a force per width, m.
@@ -120,28 +127,34 @@ impl Series {
 
     /// Energy per width absorbed at a depth, J/m.
     pub fn energy(&self, depth_m: f64) -> f64 {
-        let [from, _] = self.piece(|knot| knot.depth_m < depth_m);
-        from.energy + 0.5 * (from.force + self.load(depth_m)) * (depth_m - from.depth_m)
+        let piece = self.piece(|knot| knot.depth_m < depth_m);
+        piece[0].energy + 0.5 * (piece[0].force + load_in(piece, depth_m)) * (depth_m - piece[0].depth_m)
     }
 
     /// Force per width at a depth after a maximum of `most` N/m. Unloading is linear and returns the given shares of
     /// the energy below the first knot and above.
     pub fn pressure(&self, depth_m: f64, most: f64) -> Pressure {
-        let loading = self.load(depth_m);
+        let [from, to] = self.piece(|knot| knot.depth_m < depth_m);
+        let loading = load_in([from, to], depth_m);
         if loading >= most {
-            let [from, to] = self.piece(|knot| knot.depth_m < depth_m);
             let first = (to.first_m - from.first_m) / (to.depth_m - from.depth_m);
             return Pressure { force_n_per_m: loading, first, is_loading: true };
         }
         let [from, to] = self.piece(|knot| knot.force < most);
-        let deepest_m = self.depth_m(most);
+        let deepest_m = from.depth_m + (to.depth_m - from.depth_m) * (most - from.force) / (to.force - from.force);
         let first_m = from.first_m + (to.first_m - from.first_m) * (most - from.force) / (to.force - from.force);
-        let toe = self.energy(deepest_m.min(self.knots[1].depth_m));
-        let returns = self.returned[0] * toe + self.returned[1] * (self.energy(deepest_m) - toe);
+        let taken = self.energy(deepest_m);
+        let toe = if deepest_m < self.knots[1].depth_m { taken } else { self.toe };
+        let returns = self.returned[0] * toe + self.returned[1] * (taken - toe);
         let way_m = 2.0 * returns / most;
         let left = (1.0 - (deepest_m - depth_m) / way_m).max(0.0);
         Pressure { force_n_per_m: most * left, first: first_m / deepest_m, is_loading: false }
     }
+}
+
+/// Force per width at a depth within a piece on loading, N/m.
+fn load_in([from, to]: [&Knot; 2], depth_m: f64) -> f64 {
+    from.force + (to.force - from.force) * (depth_m - from.depth_m) / (to.depth_m - from.depth_m)
 }
 
 #[cfg(test)]

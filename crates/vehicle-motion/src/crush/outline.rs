@@ -103,6 +103,11 @@ impl Outline {
         self.edges.iter().map(|edge| edge.over_m([point.x, point.y])).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// Whether a point is inside in plan, or outside by less than `spare_m`.
+    pub fn is_near(&self, point: &V3, spare_m: f64) -> bool {
+        self.edges.iter().all(|edge| edge.over_m([point.x, point.y]) < spare_m)
+    }
+
     /// Law of a face at a point.
     pub fn law_at(&self, face: usize, point: &V3) -> usize {
         let Face { normal, law, hard, .. } = &self.faces[face];

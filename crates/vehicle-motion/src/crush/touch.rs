@@ -89,7 +89,7 @@ impl Shape {
         view: &'a View,
         outline: &'a Outline,
     ) -> impl Iterator<Item = (usize, &'a Node)> + 'a {
-        let is_near = move |run: &&Run| outline.gap_m(&view.place(&run.centre_m)) < run.radius_m + 1e-9;
+        let is_near = move |run: &&Run| outline.is_near(&view.place(&run.centre_m), run.radius_m + 1e-9);
         let near = self.runs.iter().filter(is_near);
         near.flat_map(|run| run.nodes.clone().map(|i| (i, &self.nodes[i])))
     }
@@ -166,6 +166,11 @@ impl Pass {
 
     fn met(&self, node: &Node, face: u8, outline: &Outline, now: &View, before: &View) -> Option<Met> {
         let (at_m, face) = inside(node, face, outline, now, before)?;
+        Self::met_at(node, (at_m, face), outline, now)
+    }
+
+    /// A node at a place inside an outline, by the face through which it came.
+    fn met_at(node: &Node, (at_m, face): (V3, usize), outline: &Outline, now: &View) -> Option<Met> {
         let [x, y] = outline.faces[face].normal;
         let normal = V3::new(x, y, 0.0);
         let depth_m = outline.depth_m(face, &at_m);
@@ -230,10 +235,10 @@ impl Pass {
         let outline = &shapes[b].outline;
         let (now, past) = (View::of(&poses[a], &poses[b]), View::of(&before[a], &before[b]));
         for (i, node) in shapes[a].nodes_within(&now, outline) {
-            let Some((_, face)) = inside(node, faces[i], outline, &now, &past) else { continue };
+            let Some((at_m, face)) = inside(node, faces[i], outline, &now, &past) else { continue };
             // also what does not face it yet: it may turn to it later
             faces[i] = face as u8;
-            let Some(met) = self.met(node, faces[i], outline, &now, &past) else { continue };
+            let Some(met) = Self::met_at(node, (at_m, face), outline, &now) else { continue };
             if met.facing > SQUARE {
                 most[i] = most[i].max(self.series(node, outline, &met).load(met.depth_m));
             }
@@ -256,6 +261,13 @@ impl Pass {
             nearest = own.filter(|(gap_m, _)| *gap_m < least_m).or(nearest);
         }
         nearest.map(|(gap_m, at)| (gap_m, poses[b].at_m + poses[b].axes * at))
+    }
+
+    /// Whether a node is inside the outline.
+    pub fn touches(&self, shapes: &[Shape], poses: &[Pose]) -> bool {
+        let [a, b] = [self.nodes_of, self.outline_of];
+        let (outline, now) = (&shapes[b].outline, View::of(&poses[a], &poses[b]));
+        shapes[a].nodes_within(&now, outline).any(|(_, node)| outline.holds(&now.place(&node.place_m)))
     }
 
     /// Its way, m.

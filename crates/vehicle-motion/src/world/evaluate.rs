@@ -62,6 +62,11 @@ impl Setup<'_> {
         passes.iter().map(|pass| pass.gap_m(&self.shapes, poses)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Whether nodes of a pair are inside the other's outline: its gap is below 0.
+    pub(crate) fn touches(&self, pair: &Pair, poses: &[Pose]) -> bool {
+        pair.rail.is_none() && self.passes[pair.passes.clone()].iter().any(|pass| pass.touches(&self.shapes, poses))
+    }
+
     /// Positions of all bodies.
     pub(crate) fn pose(&self, stack: &Stack, memories: &Memories, poses: &mut Vec<Pose>) {
         poses.clear();

@@ -267,9 +267,14 @@ impl<'a> Runner<'a> {
             self.setup.commit(&self.stack, &self.found.poses, &mut self.memories);
             for (i, pair) in self.setup.pairs.iter().enumerate() {
                 let poses = &self.memories.poses;
-                let is_near = self.setup.is_near(pair, poses);
-                self.touches[i].gap_m =
-                    if is_near { self.setup.gap_m(pair, &self.stack, poses) } else { f64::INFINITY };
+                // how deep does not matter
+                self.touches[i].gap_m = if self.touches[i].gap_m < 0.0 && self.setup.touches(pair, poses) {
+                    -TOUCH_M
+                } else if self.setup.is_near(pair, poses) {
+                    self.setup.gap_m(pair, &self.stack, poses)
+                } else {
+                    f64::INFINITY
+                };
             }
             jumps |= self.touch();
             jumps |= self.fire();
