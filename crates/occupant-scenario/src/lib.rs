@@ -94,6 +94,7 @@ pub mod kind;
 mod living;
 mod loaded;
 mod overrides;
+mod passes;
 mod people;
 mod places;
 mod presets;

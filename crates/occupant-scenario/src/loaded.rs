@@ -3,7 +3,7 @@
 use super::car::{self, Dimension};
 use super::draft::Draft;
 use super::ready::Ready;
-use super::sections::{Drives, People, Scenario, asks_for_people, setup, solve, together};
+use super::sections::{Drives, People, Scenario, asks_for_people, caveats, setup, solve, together};
 use super::surface_files;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
@@ -70,7 +70,7 @@ impl Loaded {
         Ok((setup, problems))
     }
 
-    fn built(&self, drives: Option<&Drives>) -> Result<(Setup, Diagnostics), Diagnostics> {
+    pub(super) fn built(&self, drives: Option<&Drives>) -> Result<(Setup, Diagnostics), Diagnostics> {
         if self.explicit.body.is_none() && self.explicit.occupants.is_empty() {
             let found = "the scenario has no occupant";
             let expected =
@@ -91,10 +91,19 @@ impl Loaded {
     /// The vehicles of `drive`, simulated before the people, with warnings; none in a scenario without `drive`.
     ///
     /// # Errors
-    /// Problems of vehicles, ground and drivers.
+    /// Problems of vehicles, ground and drivers; with coupled passes also those of the people's runs.
     pub fn drives(&self) -> Result<(Option<Drives>, Diagnostics), Diagnostics> {
         let people = if asks_for_people(&self.explicit) { self.people()? } else { Vec::new() };
-        solve(&self.explicit, &self.document, &people)
+        let (drives, mut problems) = solve(&self.explicit, &self.document, &people)?;
+        let Some(drives) = drives else { return Ok((None, problems)) };
+        let drives = self.passed(drives, &mut problems)?;
+        problems.extend(caveats(&self.document, &drives));
+        Ok((Some(drives), problems))
+    }
+
+    /// The tree of the explicit scenario.
+    pub(super) fn document(&self) -> &Document {
+        &self.document
     }
 
     /// The occupants that begin in each vehicle of `drive`, seated while it stands.

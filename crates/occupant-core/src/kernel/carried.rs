@@ -77,6 +77,12 @@ impl<S: Scalar> Carried<'_, S> {
         own
     }
 
+    /// Inertia less weight of one segment: all that acts on it besides gravity, about its proximal joint, space axes.
+    pub(crate) fn inertial(&self, m: usize) -> Wrench<S> {
+        let own = self.own(m);
+        Wrench { force: own.force + self.wrench[m].force, moment: own.moment + self.outer[m] }
+    }
+
     /// Adds the difference that sliding plates of a segment make.
     #[inline(always)]
     fn slid(&self, m: usize, own: &mut Wrench<S>) {

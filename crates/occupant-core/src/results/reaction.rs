@@ -6,17 +6,19 @@
 use nalgebra::Vector3;
 
 use crate::body::{Joint, Limb, Segment};
+use crate::forces::contact::surface::Frame;
 use crate::kernel::carried::Carried;
 use crate::kernel::instruments::FEMURS;
 use crate::motion::dynamics::Wrench;
 use crate::results::sample::Sample;
 
-/// Force and moment that the proximal segment of a joint exerts on the distal one, at the joint.
+/// Force and moment: those that the proximal segment of a joint exerts on the distal one, at the joint, in its axes, unless
+/// said otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
-    /// In axes of the distal segment, N.
+    /// N.
     pub force_n: Vector3<f64>,
-    /// In axes of the distal segment, N·m, including damper, stop and spring.
+    /// N·m; in a joint including damper, stop and spring.
     pub moment_n_m: Vector3<f64>,
 }
 
@@ -84,6 +86,53 @@ pub(crate) fn carried_by_mount(sample: &Sample<'_>) -> Option<Reaction> {
     let loads = Loads::new(sample);
     let beyond = |root: usize| loads.carried.skeleton.layout.subtree(root).filter(move |n| *n != root);
     loads.mount(|root| loads.carried.at(root, beyond(root)))
+}
+
+/// Force and moment that all bodies exert on a vehicle with this `home` frame, in its axes, N and N·m about its origin: less
+/// what they get from elsewhere. Frames that `belongs` accepts are parts of the vehicle. Belts, bags and mounts of a body are
+/// those of its home.
+///
+/// By Newton's and Euler's laws: a body's inertia, less its weight, is the sum of all that acts on it.
+pub fn push_on_vehicle(sample: &Sample<'_>, home: Frame, belongs: &dyn Fn(Frame) -> bool) -> Reaction {
+    let (setup, tree) = (sample.model.setup(), sample.model.body().tree);
+    let origin = sample.frame(home);
+    let is_inside = |body: usize| setup.members.get(body).map_or(Frame::Vehicle, |member| member.home) == home;
+    let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+    let loads = Loads::new(sample);
+    let trunks = loads.carried.skeleton.layout.trunks();
+    for segment in trunks.iter().enumerate().filter(|(body, _)| is_inside(*body)).flat_map(|(_, own)| own.segments()) {
+        let Wrench { force: own, moment: about } = loads.carried.inertial(segment);
+        let (own, arm) = (own.to_vector(), loads.carried.k.joint[segment].to_vector() - origin.origin_m);
+        force += own;
+        moment += about.to_vector() + arm.cross(&own);
+    }
+    let frames: Vec<Frame> =
+        setup.surfaces.iter().map(|own| own.frame).chain(setup.solids.iter().map(|own| own.frame)).collect();
+    let body_of = |segment: usize| tree.body_of(tree.segment(segment));
+    for contact in sample.contacts() {
+        let own = sample.model.system().spheres[contact.sphere].segment;
+        let partner = match frames.get(contact.surface) {
+            Some(Frame::Segment(segment)) => is_inside(body_of(*segment)),
+            Some(frame) => belongs(*frame),
+            None => {
+                let other = contact.surface - frames.len();
+                sample.model.system().spheres.get(other).is_some_and(|site| is_inside(body_of(site.segment)))
+            }
+        };
+        // contacts of two spheres come once for each side
+        let sign = match (is_inside(body_of(own)), partner) {
+            (true, false) => -1.0,
+            (false, true) if contact.surface < frames.len() => 1.0,
+            _ => continue,
+        };
+        let seen = sample.seen_from(own);
+        let (all, edge) = (seen.vector_to_space(contact.force_n), seen.vector_to_space(contact.edge_n));
+        let arm = |point: nalgebra::Point3<f64>| seen.point_to_space(point.coords) - origin.origin_m;
+        force += all * sign;
+        moment += (arm(contact.point_m).cross(&(all - edge)) + arm(contact.edge_point_m).cross(&edge)) * sign;
+    }
+    let along = |v: Vector3<f64>| origin.vector_to_frame(-v);
+    Reaction { force_n: along(force), moment_n_m: along(moment) }
 }
 
 /// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the

@@ -21,6 +21,7 @@ mod messages;
 mod mount;
 mod muscles;
 mod overrides;
+mod passes;
 mod plates;
 mod ready;
 mod record_file;

@@ -8,7 +8,12 @@ use occupant_core::model::setup::{DRIVE_NUMBERS, DriveLog, Fact};
 
 /// Figures of each vehicle over the whole drive.
 pub(crate) fn facts(drives: &Drives) -> Vec<Fact> {
-    (0..drives.vehicles.len()).flat_map(|number| of(drives, number)).collect()
+    let passes = drives.changes_m.last().map(|change_m| {
+        let fact = |name: &str, unit, value| Fact { name: format!("drive.{name}"), unit, value };
+        [fact("passes", "1", drives.changes_m.len() as f64), fact("pass_change", "m", *change_m)]
+    });
+    let of_vehicles = (0..drives.vehicles.len()).flat_map(|number| of(drives, number));
+    of_vehicles.chain(passes.into_iter().flatten()).collect()
 }
 
 fn of(drives: &Drives, number: usize) -> Vec<Fact> {

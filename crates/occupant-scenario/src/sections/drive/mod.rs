@@ -6,6 +6,7 @@ mod driver;
 mod facts;
 mod ground;
 mod parts;
+mod passes;
 mod people;
 mod scenery;
 mod standing;
@@ -26,6 +27,7 @@ use self::barriers::BarrierSection;
 use self::crush::ImpactSection;
 pub(super) use self::facts::{facts, logs};
 use self::ground::RoadSection;
+pub(crate) use self::passes::Pushers;
 pub(crate) use self::people::{People, asks_for_people};
 pub(super) use self::scenery::scenery;
 pub use self::scenery::{Drawing, drawings};
@@ -48,6 +50,10 @@ pub(crate) struct DriveSection {
     pub(crate) end: Time<POSITIVE>,
     /// Allowed position error of a step; 0.01 mm if absent.
     pub(crate) tolerance: Option<Length<POSITIVE>>,
+    /// Passes in which people push their vehicles by the forces of the pass before, instead of riding as rigid mass; 0 if
+    /// absent, at most 20. They end early once all positions change by less than 1 mm. Each is one more drive and one more
+    /// run of the people.
+    pub(crate) passes: Option<u64>,
     /// Vehicles by name. A `path` of kind "drive" names one of them.
     pub(crate) vehicles: IndexMap<String, DrivenSection>,
     /// The ground; a level road with friction 0.76 if absent.
@@ -85,6 +91,8 @@ pub struct Solved {
     pub world: World,
     /// Name and kind of each barrier, in the order of the world's.
     pub barriers: Vec<(String, &'static str)>,
+    /// Of each pass made, the largest change of the position of a compartment, m.
+    pub changes_m: Vec<f64>,
     people: Vec<Option<People>>,
     paths: Vec<VehiclePath>,
 }
@@ -115,6 +123,24 @@ impl std::ops::Deref for Drives {
 }
 
 impl Solved {
+    /// What was driven; barriers and people are those of another drive.
+    fn of(vehicles: Vec<DrivenVehicle>, outcome: Outcome, world: World, like: &Solved) -> Self {
+        let (barriers, people) = (like.barriers.clone(), like.people.clone());
+        Solved::new(vehicles, outcome, world, (barriers, people))
+    }
+
+    fn new(
+        vehicles: Vec<DrivenVehicle>,
+        outcome: Outcome,
+        world: World,
+        (barriers, people): (Vec<(String, &'static str)>, Vec<Option<People>>),
+    ) -> Self {
+        let path =
+            |(ride, own): (&_, &DrivenVehicle)| VehiclePath::Driven(DrivenPath::new(Motion::of(ride, own.origin_m)));
+        let paths = outcome.rides.iter().zip(&vehicles).map(path).collect();
+        Solved { vehicles, outcome, world, barriers, changes_m: Vec::new(), people, paths }
+    }
+
     /// The motion of the compartment of a vehicle by its number.
     pub fn motion(&self, vehicle: usize) -> Motion {
         Motion::of(&self.outcome.rides[vehicle], self.vehicles[vehicle].origin_m)
@@ -143,12 +169,16 @@ impl DriveSection {
         for (i, (name, own)) in self.vehicles.iter().enumerate() {
             let at = with_key("drive.vehicles", name);
             let people = people.get(i).and_then(Option::as_ref);
-            let carries = s.carries(i);
-            let Some(vehicle) = own.vehicle(b, &at, name, friction, people, carries) else { continue };
+            let riders = (people, s.carries(i), self.passes.unwrap_or(0) > 0);
+            let Some(vehicle) = own.vehicle(b, &at, name, friction, riders) else { continue };
             let driver = driver::driver(b, &at, own, &vehicle.car);
             let begin = Begin::At(own.start.start());
             world.cars.extend(driver.map(|driver| Entry::new(vehicle.car.clone(), driver, begin)));
             vehicles.push(vehicle);
+        }
+        if self.passes.is_some_and(|passes| passes > passes::MOST) {
+            let found = format!("{} passes", self.passes.unwrap_or_default());
+            b.error("drive.passes", found, format!("at most {}: they settle after two or three", passes::MOST));
         }
         if self.vehicles.is_empty() {
             b.error("drive.vehicles", "no vehicle", "a table for each vehicle, such as [drive.vehicles.car]");
@@ -202,13 +232,17 @@ pub(crate) fn solve(
             return Err(std::mem::take(&mut b.problems));
         }
     };
-    let paths = outcome.rides.iter().zip(&vehicles);
-    let paths = paths.map(|(ride, own)| VehiclePath::Driven(DrivenPath::new(Motion::of(ride, own.origin_m)))).collect();
     let barriers = section.barriers.iter().map(|(name, own)| (name.clone(), own.kind())).collect();
-    let solved = Solved { vehicles, outcome, world, barriers, people: people.to_vec(), paths };
+    let solved = Solved::new(vehicles, outcome, world, (barriers, people.to_vec()));
+    Ok((Some(Drives(Arc::new(solved))), std::mem::take(&mut b.problems)))
+}
+
+/// Warnings about what happened in a drive.
+pub(crate) fn caveats(document: &Document, solved: &Solved) -> Diagnostics {
+    let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
     solved.warn_of_crush(b);
     solved.warn_of_rails(b);
-    Ok((Some(Drives(Arc::new(solved))), std::mem::take(&mut b.problems)))
+    std::mem::take(&mut b.problems)
 }
 
 /// Longest step of a drive, s: the occupants' frame moves along polynomials between its stations.
@@ -308,11 +342,15 @@ pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
     }
 }
 
-/// Warns if the mass of occupants is a large part of the vehicle's mass.
-fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64) {
+/// Warns if the mass of occupants, or a fixed load, is a large part of the vehicle's mass; people may push it instead.
+fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64, are_people: bool) {
     if load_kg > 0.1 * mass_kg {
         let found = format!("a fixed load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg");
-        let expected = "at most a tenth of its mass: heavier people and cargo move relative to the vehicle and push it";
+        let expected = if are_people {
+            "at most a tenth of its mass, or drive.passes = 2: heavier people move relative to the vehicle and push it"
+        } else {
+            "at most a tenth of its mass: heavier cargo moves relative to the vehicle and pushes it"
+        };
         b.report(Problem::warning(with_key(at, "payload"), found, expected));
     }
 }

@@ -43,7 +43,8 @@ pub(crate) fn asks_for_people(s: &Scenario) -> bool {
     let Some(drive) = &s.drive else { return false };
     let may_crush = drive.vehicles.len() > 1 || !drive.barriers.is_empty();
     let carries = (0..drive.vehicles.len()).any(|number| s.carries(number));
-    drive.vehicles.values().any(DrivenSection::takes_people) || may_crush && carries
+    let passes = drive.passes.unwrap_or(0) > 0;
+    drive.vehicles.values().any(DrivenSection::takes_people) || (may_crush || passes) && carries
 }
 
 impl Scenario {

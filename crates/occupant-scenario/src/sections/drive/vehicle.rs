@@ -140,8 +140,7 @@ impl DrivenSection {
         at: &str,
         name: &str,
         friction: f64,
-        people: Option<&People>,
-        carries: bool,
+        (people, carries, passes): (Option<&People>, bool, bool),
     ) -> Option<DrivenVehicle> {
         let preset = Class::named(&self.preset)?.preset();
         let mut sized = *preset;
@@ -195,7 +194,10 @@ impl DrivenSection {
         let mut origin_m = V3::zeros();
         let people = people.filter(|_| self.takes_people()).map(|people| (people.mass_kg, people.centre_m));
         if let Some((load_kg, centre_m)) = load.or(people) {
-            warn_of_load(b, at, load_kg, car.mass_kg);
+            let are_people = self.load.is_none();
+            if !(are_people && passes) {
+                warn_of_load(b, at, load_kg, car.mass_kg, are_people);
+            }
             // wheels stand symmetrically: a load to one side would need springs that level it
             let (loaded, shift_m) = car.with_load(load_kg, V3::new(centre_m.x, 0.0, centre_m.z));
             (car, origin_m) = (loaded, -shift_m);
