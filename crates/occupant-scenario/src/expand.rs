@@ -77,14 +77,24 @@ fn expand_occupant(sources: &mut Sources, written: &Node, sets: Option<&Node>, o
     let divided = living::divided(written);
     let written = divided.as_ref().unwrap_or(written);
     let body = section(sources, written, "body", |layers| body(&layers));
-    let rows = body.as_ref().map_or_else(report_joints, |body| joint_rows(&body.node));
-    let joints = section(sources, written, "joints", |layers| joints(&layers, &rows, sets));
+    let joints = explicit_joints(sources, written, body.as_ref().map(|body| &body.node), sets);
     let muscles = living::muscles(sources, written);
     own.extend(
         [("body", body), ("joints", joints), ("muscles", muscles)]
             .into_iter()
             .filter_map(|(key, e)| Some((key.to_owned(), e?))),
     );
+}
+
+/// The joints of an occupant, written out for the joints of an explicit body.
+pub(super) fn explicit_joints(
+    sources: &mut Sources,
+    written: &Node,
+    body: Option<&Node>,
+    sets: Option<&Node>,
+) -> Option<Entry> {
+    let rows = body.map_or_else(report_joints, joint_rows);
+    section(sources, written, "joints", |layers| joints(&layers, &rows, sets))
 }
 
 /// Merges the library's entry under a section that refers to it by `library`, and adds its source if none is given.

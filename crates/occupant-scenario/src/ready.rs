@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::car;
 use super::check::check_parts;
-use super::expand::written_out;
+use super::expand::{explicit_joints, written_out};
 use super::living;
 use super::sections::{Scenario, schema};
-use placed_text::{Diagnostics, Document, Node, SourceId, Sources, Table};
+use placed_text::{Diagnostics, Document, Entry, Node, SourceId, Sources, Table};
+use serde::Deserialize;
 
 /// A scenario that has passed the check, and its explicit form.
 #[derive(Clone, Debug)]
@@ -27,7 +28,7 @@ pub(crate) struct Ready {
 }
 
 /// Sections on which others depend, or that have a base.
-const OTHERS: [&str; 6] = ["units", "body", "joints", "joint_sets", "occupants", "provenance"];
+const OTHERS: [&str; 5] = ["units", "body", "joint_sets", "occupants", "provenance"];
 
 impl Ready {
     /// Reads a document that has passed the check, with its car expanded but no preset; `root` is the tree as written.
@@ -64,7 +65,11 @@ impl Ready {
         let is_laid = |key: &&str| is_living && ["muscles", "triggers"].contains(key);
         let refer =
             |key: &str| [old, new].into_iter().filter_map(|root| root.get(key)).any(|entry| refers(&entry.node));
-        let is_plain = |key: &&str| !(OTHERS.contains(key) || refer(key) || is_laid(key));
+        // a preset of joints may change the body, and bring muscles
+        let preset = |of: &Table| of.get("joints")?.node.get("preset").map(|preset| preset.value.clone());
+        let is_other =
+            |key: &str| OTHERS.contains(&key) || key == "joints" && (is_living || preset(old) != preset(new));
+        let is_plain = |key: &&str| !(is_other(key) || refer(key) || is_laid(key));
         if !changed.iter().all(is_plain) {
             return None;
         }
@@ -79,15 +84,36 @@ impl Ready {
         document.root = Node::new(whole.span, placed_text::Value::Table(Arc::new(part)));
         let part: Scenario = document.sections("scenario").ok()?;
         let root = if has_car { root.clone() } else { whole.clone() };
-        let mut ready = Ready { sources: document.sources, root, whole, ..self.clone() };
+        let Ready { main, scenario, explicit_root, explicit, .. } = self;
+        let mut ready = Ready {
+            sources: document.sources,
+            main: *main,
+            root,
+            whole,
+            scenario: scenario.clone(),
+            explicit_root: explicit_root.clone(),
+            explicit: explicit.clone(),
+        };
         for key in changed {
             ready.scenario.take(key, &part)?;
-            ready.explicit.take(key, &part)?;
-            let entry = ready.whole.as_table()?.get(key)?.clone();
+            let entry = if key == "joints" {
+                ready.write_out_joints()?
+            } else {
+                ready.explicit.take(key, &part)?;
+                ready.whole.as_table()?.get(key)?.clone()
+            };
             ready.explicit_root.as_table_mut()?.insert(key.to_owned(), entry);
         }
         ready.explicit = complete(ready.explicit);
         Some(ready)
+    }
+
+    /// Expands the joints anew, for the same body.
+    fn write_out_joints(&mut self) -> Option<Entry> {
+        let (body, sets) = (self.explicit_root.get("body"), self.whole.get("joint_sets"));
+        let entry = explicit_joints(&mut self.sources, &self.whole, body, sets)?;
+        self.explicit.joints = Some(Deserialize::deserialize(&entry.node).ok()?);
+        Some(entry)
     }
 
     /// The tree of the explicit form.
@@ -141,6 +167,6 @@ macro_rules! sections {
 }
 
 sections! {
-    title notes gravity inside time output integrator car drive path vehicles ground frames loose posture initial_state mount stance
+    title notes gravity inside time output integrator joints car drive path vehicles ground frames loose posture initial_state mount stance
     seats muscles triggers markers belts webbings limiters retractors bags gases materials contact self_contact surfaces solids
 }

@@ -16,6 +16,8 @@ mod rear;
 mod signals;
 mod special;
 
+use std::sync::LazyLock;
+
 use serde::{Serialize, Serializer};
 
 use crate::measure::{Basis, Dummy, Grade, Limit, Rule};
@@ -187,6 +189,12 @@ pub const RULES: [Rule; 14] = [
     Rule::SeverityIndex,
 ];
 
+/// Limits of the [`RULES`], in their order, that occupants are judged by.
+static JUDGED: LazyLock<Vec<&'static Limit>> = LazyLock::new(|| {
+    let of = |rule| crate::measure::LIMITS.iter().filter(move |limit| limit.rule == rule && is_judged(limit));
+    RULES.into_iter().flat_map(of).collect()
+});
+
 /// Whether exceeding a limit of these grades breaks a rule or scores no points.
 fn is_judged(limit: &Limit) -> bool {
     match limit.grade {
@@ -203,8 +211,7 @@ fn is_judged(limit: &Limit) -> bool {
 impl Measure {
     /// Compares the value with the limits of all [`RULES`] for a quantity.
     fn judge(&mut self, value: f64, quantity: crate::measure::Quantity, dummy: Dummy) {
-        let known = RULES.into_iter().flat_map(|rule| crate::measure::limits(rule, dummy));
-        let judged = known.filter(|l| l.quantity == quantity && is_judged(l));
+        let judged = JUDGED.iter().filter(|limit| limit.quantity == quantity && limit.applies_to(dummy));
         self.limits = judged
             .map(|limit| {
                 let verdict = limit.judge(value);

@@ -48,7 +48,7 @@ pub(super) fn begin(
     let is_rear = !restraints(setup).is_empty();
     Instruments::fit(&mut system, &setup.body, &setup.instrument_sites(), is_rear);
     let Placed { mut state, seated, mut settled, unsettled, rest } = if alone.is_empty() {
-        place(setup, faces, &data, &system, &vehicle, problems)?
+        place(setup, faces, &data, &mut system, &vehicle, problems)?
     } else {
         Placed::at(State::together(&alone.iter().map(|model| model.start.state).collect::<Vec<_>>()))
     };
@@ -141,7 +141,7 @@ fn place(
     setup: &Setup,
     faces: &[FlatFace],
     data: &Data<'_>,
-    system: &System<f64>,
+    system: &mut System<f64>,
     vehicle: &FrameMotion,
     problems: &mut Problems,
 ) -> Option<Placed> {

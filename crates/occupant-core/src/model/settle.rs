@@ -7,11 +7,16 @@
 //! friction holds, stay unchanged. If this finds no rest, for example because the feet do not yet reach the floor, the
 //! body descends in potential energy until something carries it.
 
+use std::mem::take;
+
 use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
 
 use crate::body::Body;
-use crate::forces::{Data, History, Instant, Memory};
+use crate::forces::joint::JointMoments;
+use crate::forces::joint::limit::JointLimits;
+use crate::forces::joint::muscle::Muscles;
+use crate::forces::{Data, Element, History, Instant, Memory};
 use crate::kernel::{Scratch, Situation, System};
 use crate::model::descent::{Movable, REST, descend};
 use crate::model::frames;
@@ -98,7 +103,7 @@ impl Settled {
 pub(crate) fn kept(
     setup: &Setup,
     data: &Data<'_>,
-    system: &System<f64>,
+    system: &mut System<f64>,
     vehicle: &FrameMotion,
     state: &State<f64>,
 ) -> Settled {
@@ -125,7 +130,7 @@ const STAND_STEP_M: f64 = 0.005;
 pub(crate) fn stand(
     setup: &Setup,
     data: &Data<'_>,
-    system: &System<f64>,
+    system: &mut System<f64>,
     vehicle: &FrameMotion,
     state: State<f64>,
     problems: &mut Problems,
@@ -157,7 +162,7 @@ pub(crate) fn stand(
 pub(crate) fn settle(
     setup: &Setup,
     data: &Data<'_>,
-    system: &System<f64>,
+    system: &mut System<f64>,
     vehicle: &FrameMotion,
     state: State<f64>,
 ) -> (State<f64>, Settled) {
@@ -282,11 +287,13 @@ pub(super) fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + cross * sine + cross * cross * (1.0 - cosine)
 }
 
-/// A body tried in one position after another, at rest relative to the vehicle.
+/// A body tried in one position after another, at rest relative to the vehicle. What acts between segments moves no
+/// body whose joints are locked: it is taken out of the system until the end.
 struct Resting<'s, 'd> {
     setup: &'s Setup,
     data: Data<'d>,
-    system: System<f64>,
+    system: &'s mut System<f64>,
+    within: Within,
     still: Frames<f64>,
     history: History<f64>,
     /// Trial motion, and scratch space for its evaluation.
@@ -297,21 +304,18 @@ struct Resting<'s, 'd> {
 }
 
 impl<'s, 'd> Resting<'s, 'd> {
-    fn new(setup: &'s Setup, data: Data<'d>, system: &System<f64>, vehicle: &FrameMotion) -> Self {
+    fn new(setup: &'s Setup, data: Data<'d>, system: &'s mut System<f64>, vehicle: &FrameMotion) -> Self {
         let still = standing(setup, vehicle);
-        let mut system = system.clone();
-        // what acts between segments moves no body whose joints are locked
-        (system.forces.joints, system.forces.limits) = Default::default();
-        system.forces.muscles.clear();
+        let within = swap_within(system, Within::default());
         let history = History::new(&system.forces, Memory::none());
-        let (k, scratch) = (Box::new(Kinematics::blank()), Box::new(Scratch::blank(&system)));
-        Resting { setup, data, system, still, history, k, scratch, looks: 0 }
+        let (k, scratch) = (Box::new(Kinematics::blank()), Box::new(Scratch::blank(system)));
+        Resting { setup, data, system, within, still, history, k, scratch, looks: 0 }
     }
 
     /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight, with belts laid
     /// accordingly.
     fn load(&mut self, state: &State<f64>) -> Vector6<f64> {
-        let Resting { setup, data, system, still, history, k, scratch, looks } = self;
+        let Resting { setup, data, system, still, history, k, scratch, looks, .. } = self;
         k.follow(&system.skeleton, state, None);
         let at = Instant { k, state, frames: still, carried: &[], spheres: &system.spheres, accepted: false };
         system.forces.lay(data, &setup.body, &at);
@@ -327,6 +331,23 @@ impl<'s, 'd> Resting<'s, 'd> {
         let lever = 1.0 / LEVER_M;
         Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
     }
+}
+
+impl Drop for Resting<'_, '_> {
+    fn drop(&mut self) {
+        swap_within(self.system, take(&mut self.within));
+    }
+}
+
+/// Joints, their limits and muscles.
+type Within = (<JointMoments as Element>::Law<f64>, <JointLimits as Element>::Law<f64>, <Muscles as Element>::Law<f64>);
+
+/// Puts other joints, limits and muscles into a system, and returns those that it had.
+fn swap_within(system: &mut System<f64>, within: Within) -> Within {
+    let forces = &mut system.forces;
+    let had = (take(&mut forces.joints), take(&mut forces.limits), take(&mut forces.muscles));
+    (forces.joints, forces.limits, forces.muscles) = within;
+    had
 }
 
 /// All frames in their initial positions at rest: no friction, no damping.

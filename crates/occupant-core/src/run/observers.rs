@@ -55,10 +55,10 @@ pub(super) struct Felt {
 }
 
 impl Felt {
-    /// Space for all values of `model`.
+    /// Space for all readings of `model`; that of the numbers grows when they are first written.
     pub(super) fn new(model: &Model) -> Self {
         let nothing = [f64::NAN; READINGS];
-        Felt { numbers: Vec::with_capacity(tracked(model)), readings: vec![nothing; model.system().instruments.len()] }
+        Felt { numbers: Vec::new(), readings: vec![nothing; model.system().instruments.len()] }
     }
 }
 

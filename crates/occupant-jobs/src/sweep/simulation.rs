@@ -78,7 +78,8 @@ impl Simulation<'_> {
     fn fill(&self, row: &mut Row, summary: &Summary, model: &Model) {
         let kept = &self.plan.manifest.columns;
         let first = kept.iter().take_while(|c| c.role != Role::Figure).count();
-        for (i, figure) in [summary.figures(model), columns(model.setup())].concat().iter().enumerate() {
+        let figures = summary.figures(model).into_iter().chain(columns(model.setup()));
+        for (i, figure) in figures.enumerate() {
             if row.status != Status::Completed && !figure.is_of_work() {
                 continue;
             }

@@ -50,12 +50,16 @@ const SHOWN: usize = 50;
 pub(crate) fn references(explicit: &Node, spheres: Option<&[String]>) -> Vec<Problem> {
     let mut problems = Vec::new();
     for (pattern, what, tables) in REFERENCES.into_iter().filter(|of| of.1 != "sphere" || spheres.is_some()) {
+        let places = targets(explicit, &parse_path(pattern).unwrap_or_default());
+        if places.is_empty() {
+            continue;
+        }
         let mut names: IndexSet<&str> = tables.split('|').flat_map(|table| names_in(explicit, table)).collect();
         if what == "sphere" {
             names.extend(spheres.iter().copied().flatten().map(String::as_str));
         }
         let listed: Vec<&str> = names.iter().copied().collect();
-        for steps in targets(explicit, &parse_path(pattern).unwrap_or_default()) {
+        for steps in places {
             let Some(name) = follow(explicit, &steps).and_then(Node::as_str) else { continue };
             if !names.contains(name) {
                 let found = format!("no {what} is named \"{name}\"");

@@ -87,13 +87,18 @@ pub(super) fn joints(b: &mut Builder, section: &JointsSection, tree: &'static Tr
             tree.joint_rows().iter().map(|row| row.name).chain(["all", "preset", "epsilon"]).collect();
         b.unknown(&with_key("joints", name), "joint", name, &names);
     }
-    report_undamped(b, tree);
+    report_undamped(b, section, tree);
     let mut joints = Joints::free(tree);
     for joint in tree.joints().filter(|joint| tree[*joint].kind != JointKind::Fixed) {
         let row = &tree[joint];
-        let law = if row.is_hinge() { JointLaw::from(hinge(b, row.name)) } else { JointLaw::from(ball(b, row.name)) };
+        let own = section.given(row.name);
+        let law = if row.is_hinge() {
+            JointLaw::from(own.map_or_else(HingeJoint::default, |own| hinge(b, row.name, own)))
+        } else {
+            JointLaw::from(own.map_or_else(BallJoint::default, |own| ball(b, row.name, own)))
+        };
         joints = joints.with(joint, law);
-        joints.limits.extend(said_of(b, row.name).and_then(|section| limits(b, joint, row, &section)));
+        joints.limits.extend(section.named.get(row.name).and_then(|own| limits(b, joint, row, own)));
     }
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
 }
@@ -110,20 +115,17 @@ pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
     b.report(problem("joints.preset".to_owned(), found, expected.to_owned()).with_hint(Some(why)));
 }
 
-/// Properties of a joint; none without damping, which is reported for all joints at once.
-fn given(b: &Builder, name: &str) -> Option<JointSection> {
-    said_of(b, name).filter(|section| section.damping.is_some())
-}
-
-/// The properties given for one joint by its own name.
-pub(super) fn said_of(b: &Builder, name: &str) -> Option<JointSection> {
-    b.section(&with_key("joints", name))
+impl JointsSection {
+    /// Properties of a joint; none without damping, which is reported for all joints at once.
+    fn given(&self, name: &str) -> Option<&JointSection> {
+        self.named.get(name).filter(|section| section.damping.is_some())
+    }
 }
 
 /// One message for all joints without a damping.
-fn report_undamped(b: &mut Builder, tree: &Tree) {
+fn report_undamped(b: &mut Builder, section: &JointsSection, tree: &Tree) {
     let names = tree.joint_rows().iter().filter(|row| row.kind != JointKind::Fixed).map(|row| row.name);
-    let undamped: Vec<&str> = names.filter(|name| given(b, name).is_none()).collect();
+    let undamped: Vec<&str> = names.filter(|name| section.given(name).is_none()).collect();
     let Some((first, others)) = undamped.split_first() else { return };
     let found = match others.len() {
         0 => format!("joint `{first}` has no damping"),
@@ -134,8 +136,7 @@ fn report_undamped(b: &mut Builder, tree: &Tree) {
     b.report(Problem::error(format!("joints.{first}"), found, expected).with_hint(Some(hint)));
 }
 
-fn ball(b: &mut Builder, name: &str) -> BallJoint {
-    let Some(section) = given(b, name) else { return BallJoint::default() };
+fn ball(b: &mut Builder, name: &str, section: &JointSection) -> BallJoint {
     let path = format!("joints.{name}");
     let expected = "`stop`, the limit of the angle between its segments";
     b.refuse_keys(
@@ -159,8 +160,7 @@ fn ball(b: &mut Builder, name: &str) -> BallJoint {
     }
 }
 
-fn hinge(b: &mut Builder, name: &str) -> HingeJoint {
-    let Some(section) = given(b, name) else { return HingeJoint::default() };
+fn hinge(b: &mut Builder, name: &str, section: &JointSection) -> HingeJoint {
     let path = format!("joints.{name}");
     let foreign = ["stop", "twist_damping", "stiffness", "rest_angle", "centre", "limit", "twist_limit"];
     let expected =

@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 
 use super::builder::Builder;
-use super::joints::said_of;
+use super::joints::JointsSection;
 use super::posture::PostureSection;
 use super::{Angle, Scenario};
 use occupant_core::body::Tree;
@@ -64,44 +64,47 @@ const USUAL: [Usual; 11] = [
 pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
     for usual in &USUAL {
         let factor = if usual.unit == DEGREES { 1f64.to_degrees() } else { 1.0 };
-        let values = usual.paths.iter().flat_map(|path| values(b, setup, path)).map(|(p, x)| (p, x * factor)).collect();
-        warn_unless(b, values, usual);
+        let values = usual.paths.iter().flat_map(|path| values(b, setup, path)).map(|(at, x)| (at, x * factor));
+        let unusual = values.filter(|(_, value)| !usual.values.contains(value)).collect();
+        warn_of(b, unusual, usual);
     }
     if let Some(posture) = &scenario.posture {
         check_posture_angles(b, posture);
     }
-    check_stop_angles(b, setup.body.tree);
+    if let Some(joints) = &scenario.joints {
+        check_stop_angles(b, joints, setup.body.tree);
+    }
 }
 
-/// SI values and their paths, except zeros that switch something off and removed values.
-fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(String, f64)> {
+/// SI values and the steps of their paths, except zeros that switch something off and removed values.
+fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(Vec<Step>, f64)> {
     let root = &b.document.root;
     let of_place = |steps: Vec<Step>| {
         let above = follow(root, &steps[..steps.len() - 1])?;
         let node = child(above, steps.last()?)?;
         let norm = || node.items().iter().filter_map(|n| n.si).map(|x| x * x).sum::<f64>().sqrt();
         let value = node.si.unwrap_or_else(norm);
-        (value != 0.0 && !above.is_removed()).then(|| (to_text(&steps), value))
+        (value != 0.0 && !above.is_removed()).then_some((steps, value))
     };
+    let steps = |path| parse_path(path).unwrap_or_default();
     match path {
-        "body.segments" => vec![(path.to_owned(), setup.body.mass_kg())],
-        "time.end" => vec![(path.to_owned(), setup.time.end_s - setup.time.start_s)],
-        _ => targets(root, &parse_path(path).unwrap_or_default()).into_iter().filter_map(of_place).collect(),
+        "body.segments" => vec![(steps(path), setup.body.mass_kg())],
+        "time.end" => vec![(steps(path), setup.time.end_s - setup.time.start_s)],
+        _ => targets(root, &steps(path)).into_iter().filter_map(of_place).collect(),
     }
 }
 
 /// One warning for all values of a kind outside the usual range, at the first of them.
-fn warn_unless(b: &mut Builder, values: Vec<(String, f64)>, usual: &Usual) {
-    let mut unusual = values.into_iter().filter(|(_, v)| !usual.values.contains(v));
-    let Some((path, value)) = unusual.next() else { return };
-    let more = match unusual.count() {
+fn warn_of(b: &mut Builder, unusual: Vec<(Vec<Step>, f64)>, usual: &Usual) {
+    let Some(((first, value), others)) = unusual.split_first() else { return };
+    let more = match others.len() {
         0 => String::new(),
         n => format!(", as are {n} more"),
     };
     let rounded = (value * 1e6).round() / 1e6;
-    let value = number(if rounded == 0.0 { value } else { rounded });
+    let value = number(if rounded == 0.0 { *value } else { rounded });
     let found = format!("{} is unusual for {}{more}", format!("{value} {}", usual.unit).trim_end(), usual.what);
-    b.report(Problem::warning(path, found, usual.in_words).with_hint(Some(usual.slip)));
+    b.report(Problem::warning(to_text(first), found, usual.in_words).with_hint(Some(usual.slip)));
 }
 
 /// Bare angles that are all below π, and not all whole or nearly zero, were probably meant in radians. A text carries
@@ -122,9 +125,9 @@ fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
     }
 }
 
-fn check_stop_angles(b: &mut Builder, tree: &Tree) {
+fn check_stop_angles(b: &mut Builder, joints: &JointsSection, tree: &Tree) {
     for joint in tree.joint_rows() {
-        let Some(section) = said_of(b, joint.name) else { continue };
+        let Some(section) = joints.named.get(joint.name) else { continue };
         let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
         for (key, stop) in stops {
             if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {

@@ -29,7 +29,7 @@ fn outcome(mut draft: Draft, changes: &[&str]) -> String {
 #[test]
 fn samples_of_a_prepared_scenario_are_those_of_the_text() {
     // values of plain sections; sections that others hang on; keys that come and go; what is wrong
-    let changes: [&[&str]; 22] = [
+    let changes: [&[&str]; 28] = [
         &[],
         &["time.end=\"1 ms\""],
         &["materials.seat.k1=3e4", "materials.seat.friction=0.3"],
@@ -42,6 +42,12 @@ fn samples_of_a_prepared_scenario_are_those_of_the_text() {
         &["body.segments.head.mass=\"5 kg\""],
         &["body={ sex = \"female\", stature = \"1.6 m\", mass = \"60 kg\" }"],
         &["joints.*.damping=2"],
+        &["joints.neck.damping=3", "materials.seat.k1=3e4"],
+        &["joints.all.damping=\"5 N m s/rad\""],
+        &["joints.left_knee.lower_stop.begin=5", "joints.shoulders.damping=4"],
+        &["joints.left_knee.twist_damping=1"],
+        &["joints.neck.damping=-1"],
+        &["joints.nose.damping=1"],
         &["joints.preset=\"person\""],
         &["units=\"si\""],
         &["gravity=0"],

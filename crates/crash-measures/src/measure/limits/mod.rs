@@ -121,6 +121,11 @@ impl Limit {
         Verdict { passed: value.is_finite() && margin >= 0.0, margin, relative_margin: margin / self.most }
     }
 
+    /// Whether it is a limit of this dummy: its rule has the dummy's direction, and it names this dummy or none.
+    pub(crate) fn applies_to(&self, dummy: Dummy) -> bool {
+        self.dummy.is_none_or(|own| own == dummy) && self.rule.blow().is_none_or(|blow| blow == dummy.blow())
+    }
+
     /// Whether exceeding it breaks the rule: it is a maximum, or the bound of the rule's last class or level.
     #[must_use]
     pub fn is_last(&self) -> bool {
@@ -132,8 +137,7 @@ impl Limit {
 /// The limits of a rule for a dummy, including those for any dummy of the rule's direction. A rule without dummies
 /// applies to all.
 pub fn limits(rule: Rule, dummy: Dummy) -> impl Iterator<Item = &'static Limit> {
-    let is_of_blow = rule.blow().is_none_or(|blow| blow == dummy.blow());
-    LIMITS.iter().filter(move |limit| is_of_blow && limit.rule == rule && limit.dummy.is_none_or(|d| d == dummy))
+    LIMITS.iter().filter(move |limit| limit.rule == rule && limit.applies_to(dummy))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! From a body and flat faces to contact pairs: each sphere against each face it can touch, seams joined.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::{ContactData, EdgeForce};
 use crate::body::{Body, ContactSphere};
@@ -34,6 +34,7 @@ impl ContactSystem<f64> {
         system.carriers = carriers(data);
         let frames = frames(surfaces.iter().map(|s| s.frame), &system.carriers);
         let seams = seams(faces);
+        let flats: Vec<Flat> = faces.iter().map(Flat::new).collect();
         for (sphere, data) in body.spheres.iter().enumerate() {
             for &(frame, index) in &frames {
                 if is_own(body, data, frame) {
@@ -48,7 +49,7 @@ impl ContactSystem<f64> {
                     };
                     for parts in joined(reaches, surfaces.len(), &seams) {
                         system.planes.push(plane(&faces[parts[0]], data.radius_m));
-                        system.pairs.push(pair(&parts, surfaces, faces, materials, data.share));
+                        system.pairs.push(pair(&parts, surfaces, &flats, materials, data.share));
                     }
                     let pairs = first..system.pairs.len();
                     if !pairs.is_empty() {
@@ -137,26 +138,46 @@ fn plane<S: Scalar>(face: &FlatFace, radius_m: f64) -> Plane<S> {
     Plane { normal: V3::of(&face.normal), reach: S::of(radius_m + face.offset_m) }
 }
 
-fn pair(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], materials: &[Material], share: f64) -> Pair<f64> {
-    let first = &faces[parts[0]];
-    let (u, v) = first.plane_axes();
+/// A face and the axes of its plane.
+struct Flat<'f> {
+    face: &'f FlatFace,
+    axes: [Vector3<f64>; 2],
+    /// Its outline in them.
+    outline: Outline<f64>,
+}
+
+impl<'f> Flat<'f> {
+    fn new(face: &'f FlatFace) -> Self {
+        let (u, v) = face.plane_axes();
+        Flat { face, axes: [u, v], outline: outline(face, &[u, v]) }
+    }
+}
+
+/// Outline of a face in the axes of a plane.
+fn outline(face: &FlatFace, [u, v]: &[Vector3<f64>; 2]) -> Outline<f64> {
     let flat = |p: &Point3<f64>| [u.dot(&p.coords), v.dot(&p.coords)];
+    match &face.outline {
+        FaceOutline::Polygon(corners) => Outline::polygon(&corners.iter().map(flat).collect::<Vec<_>>()),
+        FaceOutline::Disc { centre_m, radius_m, .. } => {
+            let [u, v] = flat(centre_m);
+            Outline::Disc { centre: V2 { u, v }, radius: *radius_m }
+        }
+        FaceOutline::Unbounded { .. } => Outline::Unbounded,
+    }
+}
+
+fn pair(parts: &[usize], surfaces: &[Surface], flats: &[Flat], materials: &[Material], share: f64) -> Pair<f64> {
+    let Flat { face: first, axes: [u, v], .. } = &flats[parts[0]];
     let part = |&i: &usize| {
         let material = &materials[surfaces[i].material];
-        let outline = match &faces[i].outline {
-            FaceOutline::Polygon(corners) => Outline::polygon(&corners.iter().map(flat).collect::<Vec<_>>()),
-            FaceOutline::Disc { centre_m, radius_m, .. } => {
-                let [u, v] = flat(centre_m);
-                Outline::Disc { centre: V2 { u, v }, radius: *radius_m }
-            }
-            FaceOutline::Unbounded { .. } => Outline::Unbounded,
-        };
+        // several faces that act as one are measured in the axes of the first
+        let outline = if i == parts[0] { flats[i].outline.clone() } else { outline(flats[i].face, &[*u, *v]) };
         Part { surface: i, outline, law: MaterialLaw::new(material, share) }
     };
     let retains = parts.iter().any(|&i| materials[surfaces[i].material].memory == Memory::Retain);
     Pair {
-        u: V3::of(&u),
-        v: V3::of(&v),
+        u: V3::of(u),
+        v: V3::of(v),
         normal: V3::of(&first.normal),
         parts: parts.iter().map(part).collect(),
         retain: if retains { 1.0 } else { 0.0 },
