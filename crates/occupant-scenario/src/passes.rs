@@ -12,7 +12,7 @@ use super::sections::{Drives, Pushers};
 /// A change of all positions below which no further pass is made, m.
 const SETTLED_M: f64 = 1e-3;
 /// Longest interval at which the force of people is taken, s.
-const LOOK_S: f64 = 1e-4;
+const LOOK_S: f64 = 2.5e-4;
 
 impl Loaded {
     /// Drives with the forces of people after at most as many passes as the scenario asks for; `drives` has people as mass.
