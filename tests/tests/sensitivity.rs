@@ -249,6 +249,17 @@ fn on_a_mount_duals_are_the_limit_of_differences_of_runs() {
     against_runs(&draft, &["gravity", "mount.pitch", "mount.place[0]"], &[1e-3, 1e-4, 1e-5], 1e-6);
 }
 
+/// Stiffness, reflex, delay and tone of a volunteer's neck.
+#[test]
+fn of_muscles_with_reflexes_duals_are_the_limit_of_differences_of_runs() {
+    let neck = "muscles.neck={ tone = 0.8, stiffness = 20, damping = 1, limit = 30, reflex = { stiffness = 40, damping = 1, delay = 0.02 } }";
+    let set =
+        ["time.end=0.02", "gravity=9.81", "mount.posture={ neck = 30, head = 45 }", "joints.preset=volunteer", neck];
+    let paths =
+        ["muscles.neck.stiffness", "muscles.neck.reflex.stiffness", "muscles.neck.reflex.delay", "muscles.neck.tone"];
+    against_runs(&draft(RIG, &set), &paths, &[1e-3, 1e-4, 1e-5], 1e-6);
+}
+
 /// The lap case with everything that a force or an inertia hangs on multiplied by λ.
 struct Scaled {
     setup: Setup,

@@ -78,7 +78,8 @@ fn expand_occupant(sources: &mut Sources, written: &Node, sets: Option<&Node>, o
     let written = divided.as_ref().unwrap_or(written);
     let body = section(sources, written, "body", |layers| body(&layers));
     let joints = explicit_joints(sources, written, body.as_ref().map(|body| &body.node), sets);
-    let muscles = living::muscles(sources, written);
+    let rows = body.as_ref().map_or_else(report_joints, |body| joint_rows(&body.node));
+    let muscles = living::muscles(sources, written, rows.iter().map(|(name, _)| name.as_str()));
     own.extend(
         [("body", body), ("joints", joints), ("muscles", muscles)]
             .into_iter()

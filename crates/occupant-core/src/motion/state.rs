@@ -60,7 +60,7 @@ impl<S: Scalar> Work<S> {
 }
 
 /// Largest number of state variables that force elements own.
-pub(crate) const MOST_OWN: usize = 24 + 2 * MOST_SLIDES;
+pub(crate) const MOST_OWN: usize = 40 + 2 * MOST_SLIDES;
 /// Scales of the state variables of a sliding point mass: s, m; ṡ, m/s. With that of ṡ, error control bounds both as
 /// positions and velocities of the body.
 pub(crate) const SLIDE_UNITS: [f64; 2] = [1.0, 100.0];

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::limits::{BendLimitSection, CentreSection, FrictionSection, LockSection, RangeLimitSection, limits};
 use super::quantity::{NOT_NEGATIVE, si_or};
-use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
+use super::{Angle, BodySection, Ratio, RotationalDamping, RotationalStiffness};
 use crate::presets::OF_PEOPLE;
 use occupant_core::body::{JointKind, Tree};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
@@ -18,7 +18,7 @@ use placed_text::{Problem, with_key};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct JointsSection {
     /// Joint set to start from: "male50", the viscous stops of the 1970 report; "gebod", the elastic limits of the
-    /// GEBOD generator; "person", with a passive spine, neck and clavicles; "volunteer", the same with active neck
+    /// GEBOD generator; "person", with a passive spine, neck and clavicles; "volunteer", the same with active
     /// muscles (`muscles.readiness`); "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like", which meet
     /// the calibration corridors of dummies for neck, trunk and hips.
     #[schemars(extend("enum" = ["male50", "gebod", "person", "volunteer", "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like"]))]
@@ -113,6 +113,16 @@ pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
     let problem = if preset == "person" { Problem::warning } else { Problem::error };
     let why = "with one joint the head would not lag behind, and the limits would be those of one joint of two";
     b.report(problem("joints.preset".to_owned(), found, expected.to_owned()).with_hint(Some(why)));
+}
+
+/// Warns about the muscles of a preset in the body of a child.
+pub(super) fn check_grown(b: &mut Builder, preset: &str, body: Option<&BodySection>) {
+    let of = body.and_then(|body| body.preset.as_deref()).unwrap_or_default();
+    if preset == "volunteer" && of.starts_with("child") {
+        let found = format!("the muscles of a grown man in the body \"{of}\"");
+        let expected = "\"person\", or `[muscles]` of your own, as strong as a child's";
+        b.report(Problem::warning("joints.preset".to_owned(), found, expected.to_owned()));
+    }
 }
 
 impl JointsSection {

@@ -9,7 +9,7 @@ use super::builder::Builder;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::triggers::Triggers;
 use super::{Angle, Moment, Ratio, RotationalDamping, RotationalStiffness, Scenario, Time};
-use occupant_core::body::{Body, Joint, Side, both_sides};
+use occupant_core::body::{Body, Joint, Side, Tree, both_sides};
 use occupant_core::forces::joint::muscle::{Muscle, NEVER_S, Reflex};
 use placed_text::{Problem, did_you_mean, one_of, with_key};
 
@@ -21,7 +21,7 @@ pub(crate) enum Readiness {
     Unaware,
     /// Aware, but does not brace.
     Aware,
-    /// Tenses all neck muscles in advance.
+    /// Tenses all muscles in advance.
     Braced,
 }
 
@@ -35,8 +35,8 @@ pub(crate) struct MusclesSection {
     /// floor.
     pub(crate) trigger: Option<String>,
     /// Muscles by joint: active torques that hold its posture. `elbows` and the like stand for left and right, `all`
-    /// for every joint. A single joint overrides its pair, and a pair overrides `all`. A volunteer's neck has its own
-    /// muscles; only entries for its joints override them.
+    /// for every joint. A single joint overrides its pair, and a pair overrides `all`. A volunteer has muscles in neck, back, clavicles,
+    /// shoulders, elbows, wrists, hips, knees and ankles; only entries for these joints override them.
     #[serde(flatten)]
     pub(crate) named: IndexMap<String, MuscleSection>,
 }
@@ -73,6 +73,9 @@ pub(crate) struct MuscleSection {
     pub(crate) limit: Option<Moment<POSITIVE>>,
     /// Tone: activation before the trigger, 0 to 1; 0 if absent.
     pub(crate) tone: Option<Ratio<FRACTION>>,
+    /// Whether in a settled body it carries, whatever its activation, the moment that its joint needs at the start. Only a
+    /// muscle without `hold` and `torque` does. If absent, it does with a tone above 0.
+    pub(crate) carries: Option<bool>,
 }
 
 /// Feedback of a muscle: a delayed torque per angle and rate. It is scaled by the activation and subject to the torque
@@ -110,8 +113,20 @@ fn mirrored(side: Option<Side>, about: [f64; 3]) -> Vector3<f64> {
     Vector3::new(hand * about[0], about[1], hand * about[2])
 }
 
-/// The muscles of all joints that have any, in the tree's order.
-pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Muscle> {
+/// Names of the joints of a body.
+pub(super) fn joint_names(tree: &Tree) -> Vec<&'static str> {
+    tree.joint_rows().iter().map(|row| row.name).collect()
+}
+
+/// The muscles of all joints that have any, in the tree's order. `names` are the joints of the whole body: what is said of those
+/// that a mount leaves out is passed over.
+pub(super) fn muscles(
+    b: &mut Builder,
+    scenario: &Scenario,
+    names: &[&str],
+    body: &Body,
+    triggers: &Triggers<'_>,
+) -> Vec<Muscle> {
     let Some(said) = &scenario.muscles else { return Vec::new() };
     // those of a volunteer have been written out
     for (key, is_said) in [("readiness", said.readiness.is_some()), ("trigger", said.trigger.is_some())] {
@@ -121,12 +136,11 @@ pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, trigger
         }
     }
     let words = |name: &str| [Some(name.to_owned()), both_sides(name), Some("all".to_owned())];
-    let names: Vec<&str> = body.tree.joint_rows().iter().map(|row| row.name).collect();
     for name in said.named.keys() {
         if !names.iter().any(|joint| words(joint).iter().flatten().any(|word| word == name)) {
             let found = format!("no joint is named \"{name}\"");
-            let hint = did_you_mean(name, &names, '"');
-            b.report(Problem::error(with_key("muscles", name), found, one_of(&names, '"')).with_hint(hint));
+            let hint = did_you_mean(name, names, '"');
+            b.report(Problem::error(with_key("muscles", name), found, one_of(names, '"')).with_hint(hint));
         }
     }
     let mut list = Vec::new();
@@ -145,6 +159,11 @@ impl MuscleSection {
         let trigger = self.trigger.as_deref();
         let fired_s = trigger.and_then(|trigger| triggers.time_s(b, &format!("{at}.trigger"), trigger));
         let times_s = |at_s| [at_s + si_or(&self.reaction, 0.0), si_or(&self.until, NEVER_S)];
+        let tone = si_or(&self.tone, 0.0);
+        if self.carries == Some(true) && (self.hold.is_some() || self.torque.is_some()) {
+            let found = "a muscle that carries the initial posture, beside `hold` or `torque`";
+            b.error(&with_key(at, "carries"), found, "either `carries`, or `hold` and `torque`");
+        }
         Muscle {
             joint,
             hold: self.hold.as_ref().map(|angles| mirrored_turn(side, all_si(angles))),
@@ -153,7 +172,8 @@ impl MuscleSection {
             damping_n_m_s: si_or(&self.damping, 0.0),
             reflex: self.reflex.as_ref().map(ReflexSection::reflex),
             most_n_m: si_or(&self.limit, NEVER_S),
-            tone: si_or(&self.tone, 0.0),
+            tone,
+            carries: self.carries.unwrap_or(tone > 0.0),
             rise_s: si_or(&self.rise, 1.0),
             times_s: fired_s.map_or([NEVER_S; 2], times_s),
         }

@@ -49,13 +49,15 @@ pub(crate) struct PoseSection {
     pub(crate) yaw: Option<Angle>,
 }
 
-/// A table of times, positions and angles.
+/// A table of times, positions or accelerations, and angles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"]}))]
 pub(crate) struct TableSection {
     /// CSV file beside the scenario; its first line names the columns and their units, such as
     /// `t[s],x[m],y[m],z[m],roll[deg],pitch[deg],yaw[deg]`. Columns other than `t` may be left out and are then 0.
+    /// Accelerations `ax`, `ay`, `az` may stand for positions: along axes that do not turn, such as those of a sled,
+    /// without gravity, straight lines between the times. They are integrated from rest.
     pub(crate) file: Option<String>,
     /// Names and units of the columns of `rows`, such as `["t[s]", "x[ft]", "yaw[deg]"]`; or of those of `file`,
     /// instead of its headings; `"-"` skips a column.
@@ -92,7 +94,7 @@ pub(crate) enum AngleOrder {
 }
 
 /// Columns of a path table.
-const COLUMNS: [Column; 7] = [
+const COLUMNS: [Column; 10] = [
     column("t", kind::TIME, true),
     column("x", kind::LENGTH, false),
     column("y", kind::LENGTH, false),
@@ -100,7 +102,13 @@ const COLUMNS: [Column; 7] = [
     column("roll", kind::ANGLE, false),
     column("pitch", kind::ANGLE, false),
     column("yaw", kind::ANGLE, false),
+    column("ax", kind::ACCELERATION, false),
+    column("ay", kind::ACCELERATION, false),
+    column("az", kind::ACCELERATION, false),
 ];
+
+/// Index of the first position and of the first acceleration among [`COLUMNS`].
+const PLACES: [usize; 2] = [1, 7];
 
 impl PathSection {
     /// The CSV file it names, if it names one.
@@ -150,7 +158,9 @@ pub(super) fn pose(position: &Option<[Length; 3]>, [roll, pitch, yaw]: [&Option<
 }
 
 fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Option<TablePath> {
-    let table = numbers(b, file, &COLUMNS)?;
+    let mut table = numbers(b, file, &COLUMNS)?;
+    check_accelerations(b, s, &table)?;
+    integrate(&mut table);
     let mut stations = stations(s, &table.rows);
     if let Some(filter) = &s.filter {
         stations = smoothed(&stations, filter.si()).map_err(|found| b.error("path.filter", found, SMOOTHED)).ok()?;
@@ -161,6 +171,40 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
         None => Ok(path),
     });
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
+}
+
+/// Checks that each axis has a position or an acceleration, and that the path has accelerations if the table does.
+fn check_accelerations(b: &mut Builder, s: &TableSection, table: &NumberTable) -> Option<()> {
+    let before = b.problems.len();
+    let has = |from: usize| (from..from + 3).any(|i| table.present[i]);
+    for axis in 0..3 {
+        let [place, acceleration] = PLACES.map(|from| from + axis);
+        if table.present[place] && table.present[acceleration] {
+            let found = format!("`{}` beside `{}`", COLUMNS[acceleration].name, COLUMNS[place].name);
+            let problem = Problem::error("path", found, "the acceleration or the position along an axis, not both");
+            b.problems.push(Diagnostic::at(&b.document.sources, table.header, problem));
+        }
+    }
+    if has(PLACES[1]) && s.interpolation == Some(Interpolation::Linear) {
+        let found = "straight lines between positions, whose accelerations the table gives";
+        b.error("path.interpolation", found, "\"spline\", or leave the key out");
+    }
+    (b.problems.len() == before).then_some(())
+}
+
+/// Positions from accelerations that are straight lines between the times:
+/// v′ = v + h (a + a′)/2, x′ = x + h v + h² (2a + a′)/6. A spline through them has these accelerations, if its first and last one are 0.
+fn integrate(table: &mut NumberTable) {
+    for axis in 0..3 {
+        let [place, acceleration] = PLACES.map(|from| from + axis);
+        let mut speed_m_s = 0.0;
+        for i in 1..if table.present[acceleration] { table.rows.len() } else { 0 } {
+            let (a, next) = (table.rows[i - 1][acceleration], table.rows[i][acceleration]);
+            let h_s = table.rows[i][0] - table.rows[i - 1][0];
+            table.rows[i][place] = table.rows[i - 1][place] + h_s * (speed_m_s + h_s * (2.0 * a + next) / 6.0);
+            speed_m_s += 0.5 * h_s * (a + next);
+        }
+    }
 }
 
 const SMOOTHED: &str = "three times or more that increase, and a frequency below half of their rate";

@@ -34,10 +34,12 @@ pub(crate) fn setup(
     let preset_joints = written.joints.as_ref().and_then(|joints| joints.preset.as_deref());
     if let (Some(preset), Some(whole)) = (preset_joints, &whole) {
         joints::check_neck(b, preset, whole.tree);
+        joints::check_grown(b, preset, written.body.as_ref());
     }
     // what is said of joints that are left out is as good as what is said of all
     let joints = whole.as_ref().zip(explicit.joints.as_ref());
     let joints = joints.map(|(whole, own)| joints::joints(b, own, whole.tree));
+    let names = whole.as_ref().map_or_else(Vec::new, |whole| muscles::joint_names(whole.tree));
     let held = |whole: Body| match &explicit.mount {
         Some(section) => mount::held(b, section, &whole),
         None => Some(whole),
@@ -65,7 +67,7 @@ pub(crate) fn setup(
     let (mut chains, mut bags) = (Vec::new(), Vec::new());
     if let Some(path) = &path {
         let triggers = triggers::triggers(b, explicit, triggers::Paths { first: path, others: &frames }, &time);
-        joints.muscles = muscles::muscles(b, explicit, &body, &triggers);
+        joints.muscles = muscles::muscles(b, explicit, &names, &body, &triggers);
         chains = chains::chains(b, explicit, &body, &triggers);
         bags = bags::bags(b, explicit, &body, &triggers);
     }

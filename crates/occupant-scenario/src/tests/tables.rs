@@ -5,7 +5,7 @@ use approx::assert_relative_eq;
 use super::super::{Format, Scenario};
 use super::{build, complaint, short_with};
 use occupant_core::model::setup::Setup;
-use occupant_core::vehicle::{Interpolation, VehiclePath};
+use occupant_core::vehicle::{Interpolation, PathCursor, VehiclePath};
 
 pub(super) const PULSE: &str = "kind = \"pulse\"
 shape = \"half_sine\"
@@ -36,6 +36,57 @@ fn a_csv_file_gives_the_path_in_its_own_units() {
     assert_relative_eq!(station.pose.position_m.x, 3.048, max_relative = 1e-15);
     assert_relative_eq!(station.pose.attitude.yaw_rad, std::f64::consts::FRAC_PI_2);
     assert_eq!(station.pose.position_m.z, 0.0);
+}
+
+const ALONG_THE_SLED: &str = "kind = \"table\"\naxes = \"z_up\"\nafter = \"coast\"\ncolumns = [\"t[ms]\", \"ax[g]\", \"az[g]\", \"pitch[deg]\"]\n\
+                              rows = [[0, 0, 0, 0], [20, -6, 2, 1], [50, -9, -1, 7], [60, -3, 0, 9], [100, 0, 0, 12]]";
+
+/// Accelerations along axes that do not turn are the path's, straight lines between the times, whatever the angle; speed and place are
+/// their integrals from rest, over triangles and by Simpson's rule, exact for straight lines.
+#[test]
+fn accelerations_along_the_axes_of_a_sled_give_the_path() {
+    let path = with_csv(ALONG_THE_SLED, "").unwrap().path;
+    let g = occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+    let (t, x, z) = ([0.0, 0.02, 0.05, 0.06, 0.1], [0.0, -6.0, -9.0, -3.0, 0.0], [0.0, 2.0, -1.0, 0.0, 0.0]);
+    let (mut speed, mut place) = ([0.0; 2], [0.0; 2]);
+    for i in 0..4 {
+        let h = t[i + 1] - t[i];
+        for part in [0.0, 0.25, 0.5, 1.0] {
+            let motion = path.motion(t[i] + part * h, t[i] + part * h, &mut PathCursor::default());
+            let line = |of: [f64; 5]| g * (of[i] + part * (of[i + 1] - of[i]));
+            assert!((motion.acceleration_m_s2.x - line(x)).abs() < 1e-10, "{i} {part}: {motion:?}");
+            assert!((motion.acceleration_m_s2.z - line(z)).abs() < 1e-10, "{i} {part}: {motion:?}");
+        }
+        for (axis, of) in [x, z].into_iter().enumerate() {
+            let (a, next) = (g * of[i], g * of[i + 1]);
+            let half = speed[axis] + 0.25 * h * (a + 0.5 * (a + next));
+            let last = speed[axis] + 0.5 * h * (a + next);
+            place[axis] += h / 6.0 * (speed[axis] + 4.0 * half + last);
+            speed[axis] = last;
+        }
+        let motion = path.motion(t[i + 1], t[i + 1], &mut PathCursor::default());
+        assert!(
+            (motion.velocity_m_s.x - speed[0]).abs() < 1e-12 && (motion.origin_m.x - place[0]).abs() < 1e-13,
+            "{i}"
+        );
+        assert!(
+            (motion.velocity_m_s.z - speed[1]).abs() < 1e-12 && (motion.origin_m.z - place[1]).abs() < 1e-13,
+            "{i}"
+        );
+    }
+}
+
+#[test]
+fn accelerations_that_do_not_go_with_a_table_are_refused() {
+    for (from, to, expected) in [
+        ("\"ax[g]\", \"az[g]\"", "\"ax[g]\", \"x[m]\"", "`ax` beside `x`"),
+        ("kind", "interpolation = \"linear\"\nkind", "straight lines between positions"),
+        ("\"ax[g]\"", "\"ax[m]\"", "ax"),
+        ("[50, -9", "[10, -9", "time"),
+    ] {
+        let said = with_csv(&ALONG_THE_SLED.replacen(from, to, 1), "").err().unwrap_or_default();
+        assert!(said.contains(expected), "{from}: {said}");
+    }
 }
 
 /// A pulse that continues after the vehicle has stopped, and a table with the signs of an accelerometer.

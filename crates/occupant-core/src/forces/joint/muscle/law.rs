@@ -3,7 +3,7 @@
 //! T = −a(t)·(sat(Kρ + Dω + s, T_max) − T₀) on the outer segment, with ρ the rotation vector from the posture to hold,
 //! ω the relative angular velocity, sat by length, and T₀ the muscle's own torque, which turns with the inner segment.
 //! s is the demand of reflexes, the same law with a delay: in axes of the inner segment ṡ = (K_f ρ + D_f ω − s)/τ_f,
-//! three state variables, 0 at the start. In a settled body a muscle with tone also carries, whatever its activation,
+//! three state variables, 0 at the start. In a settled body a muscle that `carries` also bears, whatever its activation,
 //! the initial load of its joint: T_w in axes of the inner segment. The activation follows ȧ = (u − a)/τ. Its target u
 //! is the tone a₀, and 1 from the end of the reaction time until the muscle relaxes. Both times are known before the
 //! run, so a has a closed form:
@@ -44,6 +44,8 @@ pub struct Muscle {
     pub torque_n_m: Vector3<f64>,
     /// a₀, 0 to 1.
     pub tone: f64,
+    /// Whether it carries T_w, if it holds the initial posture and has no torque of its own.
+    pub carries: bool,
     /// τ, s.
     pub rise_s: f64,
     /// t_on and t_off, s; [`NEVER_S`] for neither.
@@ -74,8 +76,8 @@ pub struct MuscleLaw<S> {
     /// Inner and outer segment.
     pub(super) segments: (usize, usize),
     pub(super) held: Posture<S>,
-    /// Whether it holds the initial posture and applies no torque.
-    holds_start: bool,
+    /// Whether it bears the initial load of its joint in a settled body.
+    carries: bool,
     stiffness: S,
     damping: S,
     /// K_f, D_f and τ_f, and the index of s among the state variables that elements own.
@@ -121,7 +123,7 @@ impl MuscleLaw<f64> {
             joint: muscle.joint,
             segments: row.between().map(Segment::index).into(),
             held: Posture(M3::of(&posture.to_rotation_matrix().into_inner())),
-            holds_start: muscle.hold.is_none() && muscle.torque_n_m == Vector3::zeros(),
+            carries: muscle.carries && muscle.hold.is_none() && muscle.torque_n_m == Vector3::zeros(),
             stiffness: muscle.stiffness_n_m,
             damping: muscle.damping_n_m_s,
             reflex: muscle.reflex.map(|reflex| ([reflex.stiffness_n_m, reflex.damping_n_m_s, reflex.delay_s], 0)),
@@ -145,10 +147,10 @@ impl MuscleLaw<f64> {
     }
 
     /// Sets, at the start with a settled body, the moment that the outer segment needs to stay at rest, for a muscle
-    /// that holds the initial posture by its tone.
+    /// that carries it.
     pub(crate) fn carry(&mut self, k: &Kinematics<f64>, moment: impl Fn(usize) -> V3<f64>) {
         let (inner, outer) = self.segments;
-        if self.holds_start && self.tone > 0.0 {
+        if self.carries {
             let needed = k.axes[inner].into_frame(moment(outer));
             self.carried = needed * (self.most / self.most.max(length(needed)));
         }
@@ -166,7 +168,7 @@ impl<S: Copy> MuscleLaw<S> {
             joint: self.joint,
             segments: self.segments,
             held: self.held.zip(&other.held, f),
-            holds_start: self.holds_start,
+            carries: self.carries,
             stiffness: f(self.stiffness, other.stiffness),
             damping: f(self.damping, other.damping),
             reflex: self

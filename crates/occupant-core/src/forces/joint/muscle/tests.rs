@@ -49,6 +49,7 @@ fn tense() -> Muscle {
         hold: None,
         torque_n_m: Vector3::zeros(),
         tone: 1.0,
+        carries: true,
         rise_s: 1.0,
         times_s: [NEVER_S; 2],
     }
