@@ -55,6 +55,7 @@ pub fn male50() -> Body {
         spheres: Vec::new(),
         plates: Vec::new(),
         chests: Vec::new(),
+        sides: Vec::new(),
     };
     body.spheres = body.standard_spheres(&radius_m);
     body
@@ -86,6 +87,7 @@ pub fn bead(inertia_kg_m2: f64) -> Body {
         spheres: Vec::new(),
         plates: Vec::new(),
         chests: Vec::new(),
+        sides: Vec::new(),
     }
 }
 

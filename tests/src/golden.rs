@@ -111,6 +111,7 @@ impl Golden {
             spheres: self.spheres.iter().map(sphere).collect(),
             plates: Vec::new(),
             chests: Vec::new(),
+            sides: Vec::new(),
         }
     }
 

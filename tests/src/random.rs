@@ -74,6 +74,7 @@ impl Random {
             spheres: Vec::new(),
             plates: Vec::new(),
             chests: Vec::new(),
+            sides: Vec::new(),
         };
         body.spheres = body.standard_spheres(&radius);
         body

@@ -49,6 +49,7 @@ mod seat_belts;
 mod seating;
 mod self_contact;
 mod sensitivity;
+mod sides;
 mod solids;
 mod spring;
 mod studies;

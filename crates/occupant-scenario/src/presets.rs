@@ -7,10 +7,10 @@ use nalgebra::{UnitQuaternion, Vector2};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-mod chest;
+pub(super) mod chest;
 
 use super::expand::{expand, written};
-use super::sections::{AbdomenChoice, BodySection, ChestChoice, PelvisChoice, occupant};
+use super::sections::{AbdomenChoice, BodySection, ChestChoice, PelvisChoice, SidesChoice, occupant};
 use occupant_core::body::people::{self, Division, Person};
 use occupant_core::body::tti12::TTI12;
 use occupant_core::body::{Body, Joint, JointKind};
@@ -54,7 +54,8 @@ fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String
     let chest = chest_of(own, made, body);
     let abdomen = own.abdomen.filter(|choice| *choice == AbdomenChoice::Person).and_then(|_| chest::abdomen(body));
     let named = own.chest.filter(|_| chest.is_some()).map(|chest| format!("chest {}", chest.name()));
-    let parts = [("flesh", flesh.is_some()), ("abdomen", abdomen.is_some())];
+    let sides = sides_of(own, made, body);
+    let parts = [("flesh", flesh.is_some()), ("abdomen", abdomen.is_some()), ("sides", sides.is_some())];
     let parts = parts.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name.to_owned());
     let name = named.into_iter().chain(parts).collect::<Vec<_>>();
     if name.is_empty() {
@@ -62,18 +63,31 @@ fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String
     }
     // how spheres ride stands behind the table of spheres, plates after it
     let ([rides, plates], [belly, its_plate]) = (flesh.unwrap_or_default(), abdomen.unwrap_or_default());
-    let chest = chest.unwrap_or_default();
-    Some(([rides, belly, chest.join("\n"), plates, its_plate].join("\n"), name.join(" and ")))
+    let [chest, sides] = [chest, sides].map(|lines| lines.unwrap_or_default().join("\n"));
+    Some(([rides, belly, chest, plates, its_plate, sides].join("\n"), name.join(" and ")))
 }
 
 /// Text of the chest chosen by a body section; none for a child, for which there are no tests.
 fn chest_of(own: &BodySection, made: &Made, body: &Body) -> Option<Vec<String>> {
     let choice = own.chest.filter(|choice| *choice != ChestChoice::Rigid)?;
+    let (people, reference) = beside_reference(made)?;
+    Some(chest::words(choice, body, people, &reference))
+}
+
+/// The same for the sides.
+fn sides_of(own: &BodySection, made: &Made, body: &Body) -> Option<Vec<String>> {
+    let choice = own.sides.filter(|choice| *choice != SidesChoice::Rigid)?;
+    let (people, reference) = beside_reference(made)?;
+    Some(chest::sides(choice, body, people, &reference))
+}
+
+/// The adult of a body and the one of the tests, and the body of the latter; none for a child.
+fn beside_reference(made: &Made) -> Option<([Person; 2], Body)> {
     let is_old = made.preset.as_deref() == Some(OLD);
     let person = if is_old { people::REFERENCE_PERSON } else { made.person? };
     let division = if is_old { Division::default() } else { made.division };
     let reference = people::REFERENCE_PERSON.body(division).0;
-    Some(chest::words(choice, body, [person, people::REFERENCE_PERSON], &reference))
+    Some(([person, people::REFERENCE_PERSON], reference))
 }
 
 /// A built-in text, once parsed.
@@ -87,7 +101,7 @@ struct Made {
     division: Division,
     /// Whether its joints are written.
     has_joints: bool,
-    gives: (Option<ChestChoice>, Option<PelvisChoice>, Option<AbdomenChoice>),
+    gives: (Option<ChestChoice>, Option<PelvisChoice>, Option<AbdomenChoice>, Option<SidesChoice>),
 }
 
 /// Bodies already made, with their names in messages.
@@ -104,7 +118,7 @@ fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)>
         person: person(&own, preset),
         division: own.division().unwrap_or_default(),
         has_joints: section.get("joints").is_some(),
-        gives: (own.chest, own.pelvis, own.abdomen),
+        gives: (own.chest, own.pelvis, own.abdomen, own.sides),
     };
     let latest = || LATEST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, title, document)) = latest().iter().find(|(key, ..)| *key == from) {

@@ -1,7 +1,7 @@
 //! Definition of a measure: its name, computation and limits.
 
 use super::readings::Readings;
-use super::{Filtering, Measure, Risk};
+use super::{Filtering, Measure, Options, Risk};
 use crate::measure::risk::Severity;
 use crate::measure::{Dummy, Peak, Quantity, ThreeMs};
 use crate::signal::{ChannelClass, SignalError};
@@ -45,6 +45,8 @@ pub(super) enum Lack {
     Absent,
     /// The dummy of the limits has no such criterion.
     NotOfDummy,
+    /// A body part that is rigid, and so has no such force.
+    Rigid(&'static str),
     /// The head never touches the restraint.
     NoContact,
 }
@@ -128,7 +130,7 @@ impl Definition {
                 (measure.from_s, measure.to_s) = (time_s(finding.from_s), time_s(finding.to_s));
                 (measure.value, measure.remark) = (Some(finding.value), finding.remark);
                 if finding.is_of_dummy {
-                    self.judge(&mut measure, finding.value, dummy);
+                    self.judge(&mut measure, finding.value, &readings.options);
                 }
             }
             Err(Lack::Absent) => {
@@ -136,16 +138,21 @@ impl Definition {
                 measure.remark = Some(self.absent?.to_owned());
             }
             Err(Lack::NotOfDummy) => measure.remark = Some(format!("the {} has no such criterion", dummy.name())),
+            Err(Lack::Rigid(why)) => {
+                (measure.filter_class, measure.figure, measure.brief) = (0, None, false);
+                measure.remark = Some(why.to_owned());
+            }
             Err(Lack::NoContact) => measure.remark = Some(NO_CONTACT.to_owned()),
             Err(Lack::Unusable(error)) => measure.remark = Some(why(&error)),
         }
         Some(measure)
     }
 
-    fn judge(&self, measure: &mut Measure, value: f64, dummy: Dummy) {
+    fn judge(&self, measure: &mut Measure, value: f64, options: &Options) {
         if let Some(quantity) = self.limited {
-            measure.judge(value, quantity, dummy);
+            measure.judge(value, quantity, options);
         }
+        let dummy = options.dummy;
         for &(injury, severity) in self.risks {
             let probability = (self.curve)(value, severity, dummy);
             measure.risks.extend(probability.map(|probability| Risk { injury, probability, agrees: true }));

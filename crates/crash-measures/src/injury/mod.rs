@@ -25,7 +25,7 @@ use crate::signal::CfcFamily;
 use occupant_units::unit::Unit;
 
 pub use readings::{Acceleration, Readings};
-pub use signals::{Components, Extreme, Extremes, Person, Signals};
+pub use signals::{Components, Extreme, Extremes, Person, Ribs, Signals};
 pub use special::{ChestPoint, Special, TibiaLoad, TibiaSite};
 
 /// Filters of signals before measures are computed.
@@ -46,6 +46,8 @@ pub struct Options {
     pub dummy: Dummy,
     /// Whether a body of another size is compared with the frontal dummy of that size: see [`Options::for_body`].
     pub by_size: bool,
+    /// Another dummy whose limits apply too, for the same parts.
+    pub also: Option<Dummy>,
     /// Filters.
     pub filtering: Filtering,
 }
@@ -53,7 +55,7 @@ pub struct Options {
 impl Default for Options {
     /// Hybrid III 50M, or that of the body's size, unfiltered.
     fn default() -> Self {
-        Options { dummy: Dummy::HybridIii50M, by_size: true, filtering: Filtering::None }
+        Options { dummy: Dummy::HybridIii50M, by_size: true, also: None, filtering: Filtering::None }
     }
 }
 
@@ -61,7 +63,7 @@ impl Options {
     /// Settings for one dummy, whatever the body.
     #[must_use]
     pub fn with(self, dummy: Dummy) -> Options {
-        Options { dummy, by_size: false, ..self }
+        Options { dummy, by_size: false, also: None, ..self }
     }
 
     /// Settings for a body of this mass, kg: the Hybrid III nearest in mass, if chosen by size.
@@ -70,10 +72,25 @@ impl Options {
         if !self.by_size {
             return self;
         }
-        let far = |dummy: &Dummy| (mass_kg / dummy.mass_kg()).ln().abs();
-        let nearest = Dummy::SIZES.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-        self.with(nearest.unwrap_or(self.dummy))
+        self.with(nearest(&Dummy::SIZES, mass_kg).unwrap_or(self.dummy))
     }
+
+    /// Settings for a body of this mass, kg, whose ribs yield to the side: SID-IIs or ES-2, whichever is nearer in mass, if
+    /// chosen by size. Limits of the ES-2re apply beside those of the ES-2, which differs from it behind its ribs only.
+    #[must_use]
+    pub fn for_side(self, mass_kg: f64) -> Options {
+        if !self.by_size {
+            return self;
+        }
+        let own = self.with(nearest(&[Dummy::SidIis, Dummy::Es2], mass_kg).unwrap_or(self.dummy));
+        Options { also: (own.dummy == Dummy::Es2).then_some(Dummy::Es2Re), ..own }
+    }
+}
+
+/// The dummy nearest in mass.
+fn nearest(dummies: &[Dummy], mass_kg: f64) -> Option<Dummy> {
+    let far = |dummy: &Dummy| (mass_kg / dummy.mass_kg()).ln().abs();
+    dummies.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
 /// A measure of a run.
@@ -210,8 +227,10 @@ fn is_judged(limit: &Limit) -> bool {
 
 impl Measure {
     /// Compares the value with the limits of all [`RULES`] for a quantity.
-    fn judge(&mut self, value: f64, quantity: crate::measure::Quantity, dummy: Dummy) {
-        let judged = JUDGED.iter().filter(|limit| limit.quantity == quantity && limit.applies_to(dummy));
+    fn judge(&mut self, value: f64, quantity: crate::measure::Quantity, options: &Options) {
+        let applies =
+            |limit: &Limit| [Some(options.dummy), options.also].into_iter().flatten().any(|d| limit.applies_to(d));
+        let judged = JUDGED.iter().filter(|limit| limit.quantity == quantity && applies(limit));
         self.limits = judged
             .map(|limit| {
                 let verdict = limit.judge(value);

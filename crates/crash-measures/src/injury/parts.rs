@@ -2,6 +2,7 @@
 
 use super::definition::{Definition, Finding, Lack, Make, at, measure, whole};
 use super::readings::Readings;
+use super::signals::Ribs;
 use super::special::{ChestPoint, Special, TibiaLoad, TibiaSite};
 use crate::measure::risk::Severity::{Ais2, Ais3};
 use crate::measure::risk::{
@@ -38,10 +39,12 @@ pub(super) const CHEST_PARTS: &[Definition] = &[
 
 /// Measures of a side impact.
 pub(super) const SIDE: &[Definition] = &[
-    measure("rib_deflection", "deepest rib", Metre, Cfc180, |r| r.deepest(&r.several(3, Special::Rib)?))
-        .brief()
-        .limited(Quantity::RibDeflection)
-        .risks(&[("chest AIS3+", Ais3)], |deflection_m, _, dummy| rib_deflection_risk(deflection_m, dummy)),
+    measure("rib_deflection", "deepest rib", Metre, Cfc180, |r| {
+        r.deepest(&r.several(3, Special::Rib)?).map(|found| r.of_sides(found))
+    })
+    .brief()
+    .limited(Quantity::RibDeflection)
+    .risks(&[("chest AIS3+", Ais3)], |deflection_m, _, dummy| rib_deflection_risk(deflection_m, dummy)),
     measure("rib_viscous_criterion", "viscous criterion of a rib", MetrePerSecond, Cfc180, |r| {
         r.rib_viscous(Special::Rib, 3)
     })
@@ -56,10 +59,12 @@ pub(super) const SIDE: &[Definition] = &[
     .limited(Quantity::RibViscousCriterion),
     measure("shoulder_force", "shoulder force", Newton, Cfc600, |r| r.force(&[r.special(Special::Shoulder)?]))
         .limited(Quantity::ShoulderForce),
-    measure("abdomen_force", "abdomen force", Newton, Cfc600, |r| r.force(&r.several(3, Special::Abdomen)?))
-        .brief()
-        .limited(Quantity::AbdomenForce)
-        .risks(&[("abdomen AIS3+", Ais3)], |force_n, _, dummy| abdomen_force_risk(force_n, dummy)),
+    measure("abdomen_force", "abdomen force", Newton, Cfc600, |r| {
+        r.force(&r.several(3, Special::Abdomen)?).map(|found| r.of_sides(found))
+    })
+    .brief()
+    .limited(Quantity::AbdomenForce)
+    .risks(&[("abdomen AIS3+", Ais3)], |force_n, _, dummy| abdomen_force_risk(force_n, dummy)),
     measure("lower_spine_peak", "lower spine, peak", MetrePerSecondSquared, Cfc180, |r| {
         Ok(at(maximum(&r.lower_spine()?, r.interval_s)?))
     })
@@ -69,7 +74,7 @@ pub(super) const SIDE: &[Definition] = &[
         Ok(Finding { from_s: Some(level.start_s), to_s: Some(level.end_s), ..whole(level.level_mps2) })
     })
     .limited(Quantity::LowerSpineThreeMsCumulative),
-    measure("pubic_force", "pubic symphysis force", Newton, Cfc600, |r| r.force(&[r.special(Special::Pubic)?]))
+    measure("pubic_force", "pubic symphysis force", Newton, Cfc600, Readings::pubic)
         .brief()
         .limited(Quantity::PubicForce)
         .risks(&[("pelvis AIS3+", Ais3)], pelvis_force_risk),
@@ -128,9 +133,28 @@ impl Readings {
 
     /// Size of a person's chest, or of a dummy for this direction of impact.
     fn chest_size(&self, blow: Blow) -> Result<ChestSize, Lack> {
-        let of_person = self.person.map(|person| ChestSize::of_person(person.chest_depth_m));
+        let of_person = match (blow, self.sides) {
+            (Blow::Side, Some(Ribs::Dummy)) => None,
+            (Blow::Side, Some(Ribs::Person { half_breadth_m })) => Some(half_breadth_m),
+            _ => self.person.map(|person| person.chest_depth_m),
+        };
+        let of_person = of_person.map(ChestSize::of_person);
         let of_dummy = || ChestSize::of(self.options.dummy).filter(|_| self.options.dummy.blow() == blow);
         of_person.or_else(of_dummy).ok_or(Lack::NotOfDummy)
+    }
+
+    /// Without limits and risks of dummies if the ribs to the side are a person's.
+    fn of_sides(&self, finding: Finding) -> Finding {
+        Finding { is_of_dummy: finding.is_of_dummy && !matches!(self.sides, Some(Ribs::Person { .. })), ..finding }
+    }
+
+    /// Force of the pubic symphysis; a simulated pelvis has none.
+    fn pubic(&self) -> Result<Finding, Lack> {
+        let rigid = "the pelvis is rigid: it has no force of the pubic symphysis, and none of acetabulum and ilium";
+        match self.special(Special::Pubic) {
+            Err(Lack::Absent) if self.sides.is_some() => Err(Lack::Rigid(rigid)),
+            force => self.force(&[force?]),
+        }
     }
 
     /// Without limits and risks of dummies if the chest is a person's.
@@ -203,7 +227,8 @@ impl Readings {
     fn rib_viscous(&self, of: fn(u8) -> Special, most: u8) -> Result<Finding, Lack> {
         let ribs = self.several(most, of)?;
         let size = self.chest_size(Blow::Side)?;
-        Ok(self.of_chest(at(self.worst_of(&ribs, |own, dt_s| viscous_criterion(own, dt_s, size))?)))
+        let worst = at(self.worst_of(&ribs, |own, dt_s| viscous_criterion(own, dt_s, size))?);
+        Ok(if self.sides.is_some() { self.of_sides(worst) } else { self.of_chest(worst) })
     }
 
     fn force(&self, cells: &[Vec<f64>]) -> Result<Finding, Lack> {

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::definition::{Definition, Lack};
-use super::signals::{Components, Extreme, Extremes, Person, Signals};
+use super::signals::{Components, Extreme, Extremes, Person, Ribs, Signals};
 use super::special::Special;
 use super::{Filtering, Measure, Options, measures, parts, rear};
 use crate::measure::{Peak, ThreeMs, maximum, three_ms_contiguous, three_ms_cumulative};
@@ -45,6 +45,7 @@ pub struct Readings {
     pub(super) neck_shear_n: Result<Vec<f64>, SignalError>,
     special: BTreeMap<Special, Result<Vec<f64>, SignalError>>,
     pub(super) person: Option<Person>,
+    pub(super) sides: Option<Ribs>,
     /// Peaks known more accurately than from samples; times are relative to the first sample.
     peaks: Option<Extremes>,
 }
@@ -94,6 +95,7 @@ impl Readings {
             neck_shear_n: one(&signals.neck_n[0], Cfc600),
             special: signals.special.iter().map(|(which, values)| (*which, one(values, which.class()))).collect(),
             person: signals.person,
+            sides: signals.sides,
             peaks,
         }
     }

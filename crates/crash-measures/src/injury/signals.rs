@@ -46,6 +46,18 @@ pub struct Person {
     pub age_years: Option<f64>,
 }
 
+/// Whose ribs yield to the side, in a simulated body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ribs {
+    /// A dummy's: its limits apply.
+    Dummy,
+    /// A person's, with half of the breadth of the chest, m: no limit of a dummy applies.
+    Person {
+        /// Reference of the viscous criterion, m.
+        half_breadth_m: f64,
+    },
+}
+
 /// Time histories at regular intervals, in SAE J211 axes of the segments (X forward, Y right, Z down), SI.
 ///
 /// A last output before its regular time is left out: the measures need equal intervals.
@@ -76,6 +88,8 @@ pub struct Signals {
     pub special: BTreeMap<Special, Vec<f64>>,
     /// The person whose chest it is; none for the dummy of the limits.
     pub person: Option<Person>,
+    /// Whose ribs yield to the side, in a simulated body with a rigid pelvis; none for a test.
+    pub sides: Option<Ribs>,
     /// Largest values between the samples, if they are known.
     pub peaks: Option<Extremes>,
 }

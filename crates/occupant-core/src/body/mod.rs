@@ -15,7 +15,7 @@ pub mod tti12;
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector2, Vector3};
 
 pub use people::Sex;
-pub use plates::{Chest, Plate, Ride, Shares};
+pub use plates::{Chest, Plate, Ride, Shares, Sides};
 pub(crate) use together::called;
 pub use tree::{
     BodyRow, End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, Side, SphereRow, Tree,
@@ -164,6 +164,8 @@ pub struct Body {
     pub plates: Vec<Plate>,
     /// Chests in the results, at most one per body.
     pub chests: Vec<Chest>,
+    /// Sides of trunks that yield.
+    pub sides: Vec<Sides>,
 }
 
 impl Body {

@@ -36,6 +36,7 @@ impl Body {
             spheres: own.collect(),
             plates: plates.filter_map(|p| Some(Plate { segment: now(p.segment)?, ..p.clone() })).collect(),
             chests: self.chests.iter().filter(|_| whole).cloned().collect(),
+            sides: self.sides.iter().filter(|_| whole).cloned().collect(),
             ..self.clone()
         }
     }

@@ -53,6 +53,14 @@ impl Ride {
     }
 }
 
+impl Sides {
+    /// The sides in a model of several bodies, for the body with this name whose plates begin at `first`.
+    pub(crate) fn of_member(&self, name: &str, first: usize) -> Self {
+        let (ribs, abdomen) = (self.ribs.map(|plate| first + plate), self.abdomen.map(|plate| first + plate));
+        Sides { of: name.to_owned(), ribs, abdomen, ..self.clone() }
+    }
+}
+
 impl Chest {
     /// The ride in a model of several bodies, for the body with this name whose plates begin at `first`.
     pub(crate) fn of_member(&self, name: &str, first: usize) -> Self {
@@ -60,6 +68,21 @@ impl Chest {
         let points = self.points.iter().map(|(point, shares)| (point.clone(), moved(shares))).collect();
         Chest { of: name.to_owned(), breastbone: first + self.breastbone, points, ..self.clone() }
     }
+}
+
+/// The sides of a trunk in the results: ribs on the left and on the right, and the abdomen between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sides {
+    /// Name of the body among several; empty for a single one.
+    pub of: String,
+    /// Origin of its plates: `person` or `es2`.
+    pub preset: String,
+    /// Indices of the plates of the ribs, left and right.
+    pub ribs: [usize; 2],
+    /// Index of the abdomen's plate, if there is an abdomen.
+    pub abdomen: Option<usize>,
+    /// Half of the breadth of the chest, m: the reference of the viscous criterion.
+    pub half_breadth_m: f64,
 }
 
 /// A chest in the results: body, depth, and measuring points.

@@ -16,11 +16,17 @@ struct Beside {
     place: [f64; 3],
 }
 
+/// Radius of the spheres at the sides of the chest and distance of their centres from its middle, in radii of the chest's
+/// sphere.
+const SIDE_OF_CHEST: [f64; 2] = [0.8, 0.54];
+/// Half of the breadth of a chest with these, in radii of its sphere.
+pub const CHEST_OUT: f64 = SIDE_OF_CHEST[0] + SIDE_OF_CHEST[1];
+
 const BESIDE: [Beside; 8] = [
     beside("face", "head", 0.6, [0.45, 0.0, -0.65]),
     beside("chin", "head", 0.35, [0.6, 0.0, -1.0]),
-    beside("right_chest", "chest", 0.8, [0.0, -0.54, 0.0]),
-    beside("left_chest", "chest", 0.8, [0.0, 0.54, 0.0]),
+    beside("right_chest", "chest", SIDE_OF_CHEST[0], [0.0, -SIDE_OF_CHEST[1], 0.0]),
+    beside("left_chest", "chest", SIDE_OF_CHEST[0], [0.0, SIDE_OF_CHEST[1], 0.0]),
     beside("right_pelvis", "pelvis", 0.8, [0.0, -0.67, 0.0]),
     beside("left_pelvis", "pelvis", 0.8, [0.0, 0.67, 0.0]),
     beside("right_forefoot", "right_foot", 0.7, [3.2, 0.0, -0.3]),

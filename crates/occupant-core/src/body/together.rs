@@ -33,6 +33,7 @@ impl Body {
             spheres: Vec::new(),
             plates: Vec::new(),
             chests: Vec::new(),
+            sides: Vec::new(),
         }
     }
 
@@ -40,7 +41,8 @@ impl Body {
     pub(crate) fn together(all: &[(&str, &Body)]) -> Body {
         let trees: Vec<_> = all.iter().map(|(name, body)| (*name, body.tree)).collect();
         let mut first = 0;
-        let (mut spheres, mut plates, mut chests) = (Vec::new(), Vec::<Plate>::new(), Vec::new());
+        let (mut spheres, mut plates) = (Vec::new(), Vec::<Plate>::new());
+        let (mut chests, mut sides) = (Vec::new(), Vec::new());
         for (name, body) in all {
             spheres.extend(body.spheres.iter().map(|sphere| ContactSphere {
                 name: called(name, &sphere.name),
@@ -50,6 +52,7 @@ impl Body {
                 ..sphere.clone()
             }));
             chests.extend(body.chests.iter().map(|chest| chest.of_member(name, plates.len())));
+            sides.extend(body.sides.iter().map(|sides| sides.of_member(name, plates.len())));
             plates.extend(body.plates.iter().map(|plate| Plate {
                 name: called(name, &plate.name),
                 segment: Segment(first + plate.segment.index()),
@@ -70,6 +73,7 @@ impl Body {
             spheres,
             plates,
             chests,
+            sides,
         }
     }
 }

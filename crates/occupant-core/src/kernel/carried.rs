@@ -13,7 +13,7 @@
 use crate::kernel::{Evaluation, Scratch};
 use crate::motion::dynamics::{Accelerations, Wrench};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::MOST_SEGMENTS;
+use crate::motion::layout::{MOST_SEGMENTS, MOST_SLIDES};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::vector::{V3, v3};
@@ -29,6 +29,8 @@ pub(crate) struct Carried<'a, S> {
     outer: &'a [V3<S>; MOST_SEGMENTS],
     /// Forces on the spheres at the knees, by leg.
     pub knees: &'a [V3<S>],
+    /// Resistance of the plates, N.
+    pub resist: &'a [S; MOST_SLIDES],
 }
 
 impl<'a, S> Carried<'a, S> {
@@ -37,13 +39,15 @@ impl<'a, S> Carried<'a, S> {
     pub(crate) fn of(skeleton: &'a Skeleton<S>, scratch: &'a Scratch<S>) -> Self {
         let Scratch { kinematics: k, load, sweep, .. } = scratch;
         let accelerations = &sweep.accelerations;
-        Carried { skeleton, k, accelerations, wrench: &load.wrench, outer: &load.outer, knees: &load.knees }
+        let (wrench, outer, knees, resist) = (&load.wrench, &load.outer, &load.knees, &load.resist);
+        Carried { skeleton, k, accelerations, wrench, outer, knees, resist }
     }
 
     /// Results of an evaluation.
     pub(crate) fn of_evaluation(skeleton: &'a Skeleton<S>, e: &'a Evaluation<S>) -> Self {
         let (k, accelerations) = (&e.kinematics, &e.accelerations);
-        Carried { skeleton, k, accelerations, wrench: &e.wrench, outer: &e.outer, knees: &e.knees }
+        let (wrench, outer, knees, resist) = (&e.wrench, &e.outer, &e.knees, &e.resist);
+        Carried { skeleton, k, accelerations, wrench, outer, knees, resist }
     }
 }
 

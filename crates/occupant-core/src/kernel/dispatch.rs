@@ -56,7 +56,7 @@ impl System<f64> {
         observer: &mut dyn Observer<f64>,
     ) -> Evaluation<f64> {
         self.derive_once(scratch, situation, history, observer);
-        let Scratch { kinematics, load: Load { wrench, power, outer, knees, .. }, sweep, .. } = &*scratch;
+        let Scratch { kinematics, load: Load { wrench, power, outer, knees, resist, .. }, sweep, .. } = &*scratch;
         Evaluation {
             kinematics: *kinematics,
             wrench: *wrench,
@@ -64,6 +64,7 @@ impl System<f64> {
             power: *power,
             outer: *outer,
             knees: *knees,
+            resist: *resist,
         }
     }
 

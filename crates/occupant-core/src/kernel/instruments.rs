@@ -7,13 +7,13 @@ use crate::kernel::carried::Carried;
 use crate::kernel::{Scratch, System};
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::Layout;
+use crate::motion::layout::{Layout, MOST_SLIDES};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 use nalgebra::Vector3;
 
 /// Count of numbers in a reading.
-pub(crate) const READINGS: usize = REAR + 3;
+pub(crate) const READINGS: usize = SIDE + SIDE_SIGNALS;
 /// Index of the neck's force in a reading, followed by its moment.
 pub(crate) const NECK: usize = 15;
 /// Index of the femurs, right and left.
@@ -25,6 +25,11 @@ pub(crate) const CHEST: usize = 26;
 /// Index of the values for rear impact: acceleration of T1 forward, speed forward of the head and position forward of
 /// the pelvis, in axes of the body's home frame.
 pub(crate) const REAR: usize = CHEST + CHEST_POINTS;
+/// Index of the values for side impact: deflection of the ribs of the side that is pressed in more, m; force of the
+/// abdomen from the side, N; reading of an accelerometer at T12.
+pub(crate) const SIDE: usize = REAR + 3;
+/// Count of those values.
+pub(crate) const SIDE_SIGNALS: usize = 5;
 /// Number of chest points.
 pub(crate) const CHEST_POINTS: usize = 1 + POINTS.len();
 /// Points of a chest besides the sternum, by their names in bodies.
@@ -33,7 +38,7 @@ const POINTS: [&str; 4] = ["upper_left", "upper_right", "lower_left", "lower_rig
 /// What the instruments of one body read at one instant, SI. In SAE J211 axes of the segments: what accelerometers of head,
 /// chest and pelvis read, angular velocity and acceleration of the head, force and moment of the neck on the head at the
 /// condyles; tension of the right and the left femur; then the centre of the head's sphere in axes of the body's home, and the
-/// deflections of a chest, m. NaN for what a body lacks.
+/// deflections of a chest, m; then the values for rear and side impact. NaN for what a body lacks.
 pub(crate) type Reading<S> = [S; READINGS];
 
 /// Instruments of a body.
@@ -54,6 +59,19 @@ pub(crate) struct Instruments<S> {
     home: usize,
     /// How the points of its chest move with plates.
     chest: [Option<Riding<S>>; CHEST_POINTS],
+    sides: Option<SideSites<S>>,
+}
+
+/// Instruments of a trunk whose sides yield.
+#[derive(Clone, Copy, Debug)]
+struct SideSites<S> {
+    /// Plates of the ribs, left and right.
+    ribs: [usize; 2],
+    /// Plate of the abdomen, if there is one.
+    abdomen: Option<usize>,
+    /// Segment of the chest, and the place of T12 on it: its lower end, from its joint.
+    chest: usize,
+    t12: V3<S>,
 }
 
 #[derive(Clone, Debug)]
@@ -133,6 +151,7 @@ impl Instruments<f64> {
         let points = POINTS.map(|point| shares(point).map(Riding::new));
         let head = if row.name.is_empty() { "head".to_owned() } else { format!("{}.head", row.name) };
         let [right, left] = [(0, marks.legs.right), (1, marks.legs.left)].map(leg);
+        let sides = body.sides.iter().find(|sides| sides.of == row.name).zip(marks.instruments()[1]);
         Instruments {
             accelerometers: all,
             neck,
@@ -142,6 +161,12 @@ impl Instruments<f64> {
             head: body.sphere(&head),
             home,
             chest: std::array::from_fn(|i| if i == 0 { breastbone } else { points[i - 1] }),
+            sides: sides.map(|(own, chest)| SideSites {
+                ribs: own.ribs,
+                abdomen: own.abdomen,
+                chest: chest.index(),
+                t12: -V3::of(&body.joint_m(chest)),
+            }),
         }
     }
 }
@@ -154,6 +179,7 @@ impl<S: Copy> Instruments<S> {
             && neck == other.neck.as_ref().map(|neck| (&neck.from, neck.head))
             && (&self.legs, self.head, self.home, self.above_t1, self.is_rear)
                 == (&other.legs, other.head, other.home, other.above_t1, other.is_rear)
+            && self.sides.map(|own| own.places()) == other.sides.map(|own| own.places())
             && self.chest.iter().zip(&other.chest).all(|pair| match pair {
                 (Some(a), Some(b)) => a.is_like(b),
                 (a, b) => a.is_none() && b.is_none(),
@@ -176,7 +202,18 @@ impl<S: Copy> Instruments<S> {
             head: self.head,
             home: self.home,
             chest: std::array::from_fn(|i| self.chest[i].zip(other.chest[i]).map(|(a, b)| a.zip(&b, f))),
+            sides: self.sides.zip(other.sides).map(|(a, b)| {
+                let SideSites { ribs, abdomen, chest, t12 } = a;
+                SideSites { ribs, abdomen, chest, t12: t12.zip(&b.t12, f) }
+            }),
         }
+    }
+}
+
+impl<S: Copy> SideSites<S> {
+    /// Its plates and its segment.
+    fn places(&self) -> ([usize; 2], Option<usize>, usize) {
+        (self.ribs, self.abdomen, self.chest)
     }
 }
 
@@ -227,6 +264,9 @@ impl<S: Scalar> Instruments<S> {
         if self.is_rear {
             self.read_rear(system, from, frames, &mut reading);
         }
+        if let Some(sides) = &self.sides {
+            sides.read(system, from, &mut reading);
+        }
         for (i, leg) in self.legs.iter().enumerate() {
             let Some(Leg { thigh, knee, shanks }) = leg else { continue };
             let mut along = from.knees[*knee];
@@ -258,6 +298,22 @@ impl<S: Scalar> Instruments<S> {
         if let Some(pelvis) = pelvis {
             reading[REAR + 2] = (k.cg(skeleton, pelvis) - home.origin).dot(home.axes.x);
         }
+    }
+}
+
+impl<S: Scalar> SideSites<S> {
+    /// Values for side impact.
+    #[inline(always)]
+    fn read(&self, system: &System<S>, from: &Carried<'_, S>, reading: &mut Reading<S>) {
+        let k = from.k;
+        let [left, right] = self.ribs.map(|plate| k.slides[plate % MOST_SLIDES].way);
+        reading[SIDE] = left.max(right);
+        if let Some(plate) = self.abdomen {
+            reading[SIDE + 1] = from.resist[plate % MOST_SLIDES].abs();
+        }
+        let gravity = v3(S::zero(), S::zero(), system.skeleton.gravity);
+        let felt = from.accelerations.at(k, self.chest, k.axes[self.chest].out(self.t12)) + gravity;
+        put(reading, SIDE + 2, told(k, self.chest, felt));
     }
 }
 

@@ -116,6 +116,8 @@ pub struct Evaluation<S> {
     pub(crate) outer: [V3<S>; MOST_SEGMENTS],
     /// By leg: force on the spheres at its knee, N.
     pub(crate) knees: [V3<S>; MOST_LEGS],
+    /// Resistance of the plates, N.
+    pub(crate) resist: [S; MOST_SLIDES],
 }
 
 /// Scratch space of an evaluation, reused by the next.

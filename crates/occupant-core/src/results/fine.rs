@@ -4,7 +4,7 @@
 //! between. Values at steps have the precision of an `f32`, in a run as in its file; values at outputs, from which
 //! derivatives are made, have full precision.
 
-use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, REAR, Reading};
+use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, REAR, Reading, SIDE, SIDE_SIGNALS};
 use crate::model::Model;
 use crate::model::behind::restraints;
 use crate::model::setup::Integrator;
@@ -15,7 +15,7 @@ use crate::results::sample::Sample;
 pub const READINGS_S: f64 = 1e-4;
 
 /// Count of numbers of one body in a sample: a reading without the head's position; then, if any body has a deformable
-/// chest, its deflections; then, in a rear impact, [`REAR_SIGNALS`].
+/// chest, its deflections; if any has sides that yield, [`SIDE_SIGNALS`]; then, in a rear impact, [`REAR_SIGNALS`].
 pub(crate) const SIGNALS: usize = PLACE;
 
 /// Signals for rear impact: of T1, of the head restraint, of the head's speed and of the pelvis' position.
@@ -32,6 +32,8 @@ pub struct Fine {
     pub(crate) bodies: Vec<usize>,
     /// Count of numbers of each body in a sample.
     each: usize,
+    /// Count of those for side impact, before those for rear impact.
+    side: usize,
     /// Count of those for rear impact.
     pub(crate) rear: usize,
     /// Index of the next sample.
@@ -56,7 +58,8 @@ impl Fine {
         let bodies: Vec<usize> = bodies.filter(|(of, row)| is_read(*of, &row.landmarks)).map(|(of, _)| of).collect();
         let rear = if restraints(model.setup()).is_empty() { 0 } else { REAR_SIGNALS };
         let chest = if model.body().chests.is_empty() { 0 } else { CHEST_POINTS };
-        let each = SIGNALS + chest + rear;
+        let side = if model.body().sides.is_empty() { 0 } else { SIDE_SIGNALS };
+        let each = SIGNALS + chest + side + rear;
         let count = each * bodies.len();
         let time = &model.setup().time;
         let interval_s = interval_s(model);
@@ -67,6 +70,7 @@ impl Fine {
             interval_s,
             bodies,
             each,
+            side,
             rear,
             next: 0,
             before_s: f64::NAN,
@@ -94,9 +98,11 @@ impl Fine {
         let before = self.before.chunks_exact(self.each.max(1));
         for ((to, before), &of) in self.now.chunks_exact_mut(self.each.max(1)).zip(before).zip(&self.bodies) {
             let (own, more) = to.split_at_mut(SIGNALS);
-            let (chest, rear) = more.split_at_mut(more.len() - self.rear);
+            let (more, rear) = more.split_at_mut(more.len() - self.rear);
+            let (chest, side) = more.split_at_mut(more.len() - self.side);
             own.copy_from_slice(&readings[of][..SIGNALS]);
             chest.copy_from_slice(&readings[of][CHEST..][..chest.len()]);
+            side.copy_from_slice(&readings[of][SIDE..][..side.len()]);
             if let [t1, force, speed, place] = rear {
                 [*t1, *speed, *place] = [readings[of][REAR], readings[of][REAR + 1], readings[of][REAR + 2]];
                 *force = held.get(of).copied().unwrap_or(before[self.each - self.rear + 1]);
@@ -155,6 +161,11 @@ impl Fine {
     /// Part of a body's sample for rear impact.
     pub(crate) fn rear_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
         &sample[self.each - self.rear..]
+    }
+
+    /// Part of a body's sample for side impact.
+    pub(crate) fn side_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
+        &sample[self.each - self.rear - self.side..self.each - self.rear]
     }
 
     /// Index and readings of the samples since the last output, of a body among those read.

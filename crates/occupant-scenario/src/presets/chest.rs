@@ -4,17 +4,25 @@
 //! part by Kent 2004), the share of a belt from Kent 2004; lower ribs and links to means of Shaw 2009. `dummy50`,
 //! `dummy05f`: fitted to 49 CFR 572.34 and 572.134, the share of a belt to vehicle test NHTSA 7292. The mass of
 //! `dummy50` is a guess.
+//!
+//! Ribs and abdomen to the side: those of `person` have the laws of its sternum and of its abdomen, fitted to no test
+//! from the side. The ribs of `es2`, three as one, are fitted to drops of 7.78 kg on one rib at 2, 3 and 4 m/s (UN R95,
+//! Annex 6, from memory: 23.5 to 27.5, 36 to 40, 46 to 51 mm), its abdomen to 49 CFR 572.186.
 
-use crate::sections::{ChestChoice, above};
-use occupant_core::body::Body;
+use crate::sections::{ChestChoice, SidesChoice, above};
 use occupant_core::body::people::Person;
+use occupant_core::body::{Body, Segment, shape};
 
 /// Height of the sternum's plate above the upper torso's lower end, as a fraction of its length.
 const HEIGHT: f64 = 0.62;
 /// Exponent of the stiffness of chests over their depth, from the two dummies.
 const BY_DEPTH: f64 = 0.27;
 
-/// Numbers of an average man's sternum.
+/// Plates of the ribs to the sides, with the sign of their Y, and of the abdomen.
+pub(crate) const SIDES: [(&str, f64); 2] = [("left_side", 1.0), ("right_side", -1.0)];
+pub(crate) const ABDOMEN_SIDE: &str = "abdomen_side";
+
+/// Numbers of an average man's sternum, and of other ribs.
 struct Breastbone {
     mass_kg: f64,
     /// m and N.
@@ -47,6 +55,21 @@ const DUMMY_05F: Breastbone = Breastbone {
     damper: [440.0, 0.0, 440.0],
     share: 0.20,
 };
+
+/// Ribs of a side of `es2`: mass and returned fraction are guesses.
+const ES2_RIBS: Breastbone = Breastbone {
+    mass_kg: 1.2,
+    spring: &[[0.0, 0.0], [0.1, 9600.0]],
+    returned: 0.9,
+    damper: [480.0, 0.0, 480.0],
+    share: 0.0,
+};
+/// Abdomen of `es2`: the share of a contact's force that its load cells feel, spring, N/m, and damper, N·s/m.
+const ES2_ABDOMEN: [f64; 3] = [0.55, 44e3, 60.0];
+/// The same of a person, as from the front.
+const ABDOMEN: [f64; 3] = [1.0, 30e3, 300.0];
+/// Half of the breadth of the chest of an ES-2, m.
+const ES2_HALF_M: f64 = 0.140;
 
 /// Scale factors of a chest.
 struct Scale {
@@ -86,19 +109,8 @@ pub(super) fn words(
     };
     let name = body.tree[torso].name;
     let (stretch, height_m) = (own.length_m / other.length_m, HEIGHT * own.length_m);
-    let at = |y_m: f64, below_m: f64| {
-        format!("at = {}", list(&[0.1 * stretch, y_m * stretch, height_m - below_m * stretch]))
-    };
-    let plate = |plate: &str, at: String, mass_kg: f64| {
-        vec![
-            format!("[body.plates.{plate}]"),
-            format!("segment = {name:?}"),
-            at,
-            "inward = [-1, 0, 0]".to_owned(),
-            format!("mass = {}", number(mass_kg)),
-            format!("depth = {}", number(depth_m)),
-        ]
-    };
+    let at = |y_m: f64, below_m: f64| [0.1 * stretch, y_m * stretch, height_m - below_m * stretch];
+    let plate = |plate: &str, at: [f64; 3], mass_kg: f64| header(plate, name, at, "[-1, 0, 0]", mass_kg, Some(depth_m));
     let mut lines = vec![ride(breastbone.share)];
     lines.extend(plate("sternum", at(0.0, 0.0), scale.mass * breastbone.mass_kg));
     lines.extend(breastbone.words(&scale));
@@ -109,6 +121,70 @@ pub(super) fn words(
         lines.extend(link("rib_cage", 1.0, 37.5e3, 150.0, &scale));
         lines.extend(link("rocking", -1.0, 6.7e3, 60.0, &scale));
     }
+    lines
+}
+
+/// The keys under `[body]` of ribs and of an abdomen that yield to the side, scaled as those of [`words`].
+pub(super) fn sides(
+    choice: SidesChoice,
+    body: &Body,
+    [person, of_reference]: [Person; 2],
+    reference: &Body,
+) -> Vec<String> {
+    let (Some(torso), Some(chest)) = (body.tree.landmarks().chest, body.sphere("chest")) else { return Vec::new() };
+    let (ribs, [_, stiffness, damping], scale) = match choice {
+        SidesChoice::Rigid => return Vec::new(),
+        SidesChoice::Person => {
+            let mass = body.segment(torso).mass_kg / reference.segment(torso).mass_kg;
+            (PERSON, ABDOMEN, Scale::of(mass, person.chest_depth_m() / of_reference.chest_depth_m()))
+        }
+        SidesChoice::Es2 => (ES2_RIBS, ES2_ABDOMEN, Scale::NONE),
+    };
+    let (half_m, chest) = (half_breadth_m(choice, body), &body.spheres[chest]);
+    let (name, z_m) = (body.tree[torso].name, chest.centre_from_lower_end_m.z);
+    let mut lines = Vec::new();
+    for (plate, sign) in SIDES {
+        let inward = format!("[0, {}, 0]", -sign);
+        let at = [0.0, sign * half_m, z_m];
+        lines.extend(header(plate, name, at, &inward, scale.mass * ribs.mass_kg, Some(2.0 * half_m)));
+        lines.extend(ribs.words(&scale));
+    }
+    let Some(above) = middle(body) else { return lines };
+    let (name, length_m) = (body.tree[above].name, body.segment(above).length_m);
+    let mass_kg = (0.1 * body.segment(above).mass_kg).min(0.5);
+    lines.extend(header(ABDOMEN_SIDE, name, [0.0, 0.0, 0.5 * length_m], "[0, -1, 0]", mass_kg, None));
+    lines.push(format!("spring = {{ depth = [0, 1], force = [0, {}], returned = 0.3 }}", number(stiffness)));
+    lines.push(format!("damper = {{ linear = {} }}", number(damping)));
+    lines
+}
+
+/// Half of the breadth of a chest: out to the surface of the spheres at its sides; of a dummy the defined value, m.
+pub(crate) fn half_breadth_m(choice: SidesChoice, body: &Body) -> f64 {
+    let chest_m = body.sphere("chest").map_or(f64::NAN, |chest| body.spheres[chest].radius_m);
+    if choice == SidesChoice::Es2 { ES2_HALF_M } else { shape::CHEST_OUT * chest_m }
+}
+
+/// Share of the force of a contact from the side on the abdomen's plate.
+pub(crate) fn share_of_abdomen(choice: SidesChoice) -> f64 {
+    if choice == SidesChoice::Es2 { ES2_ABDOMEN[0] } else { ABDOMEN[0] }
+}
+
+/// Part of the trunk between chest and pelvis.
+fn middle(body: &Body) -> Option<Segment> {
+    let marks = body.tree.landmarks();
+    above(body, marks.pelvis?).filter(|segment| Some(*segment) != marks.chest)
+}
+
+/// First keys of a plate.
+fn header(plate: &str, segment: &str, at: [f64; 3], inward: &str, mass_kg: f64, depth_m: Option<f64>) -> Vec<String> {
+    let mut lines = vec![
+        format!("[body.plates.{plate}]"),
+        format!("segment = {segment:?}"),
+        format!("at = {}", list(&at)),
+        format!("inward = {inward}"),
+        format!("mass = {}", number(mass_kg)),
+    ];
+    lines.extend(depth_m.map(|depth_m| format!("depth = {}", number(depth_m))));
     lines
 }
 
@@ -134,8 +210,7 @@ pub(super) fn flesh(body: &Body) -> [String; 2] {
 /// its plate. 30 kN/m and 300 N·s/m: 2.7 kN at 49 mm and 4 m/s, 8 kN at 138 mm and 13 m/s, two corner figures of belt
 /// pretensioners on eight abdomens (Foster 2006); mass, position and size are guesses.
 pub(super) fn abdomen(body: &Body) -> Option<[String; 2]> {
-    let pelvis = body.tree.landmarks().pelvis?;
-    let above = above(body, pelvis).filter(|segment| Some(*segment) != body.tree.landmarks().chest)?;
+    let above = middle(body)?;
     let (name, length_m) = (body.tree[above].name, body.segment(above).length_m);
     let pelvis_m = body.sphere("pelvis").map_or(0.1, |sphere| body.spheres[sphere].radius_m);
     let (radius_m, height_m) = (0.9 * pelvis_m, 0.5 * length_m);

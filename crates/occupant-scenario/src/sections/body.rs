@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::body_joints::own_tree;
 use super::builder::Builder;
-use super::plates::{self, AbdomenChoice, BodyPlateSection, ChestChoice, LinkSection, PelvisChoice, RideSection};
+use super::plates::{
+    self, AbdomenChoice, BodyPlateSection, ChestChoice, LinkSection, PelvisChoice, RideSection, SidesChoice,
+};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::{Acceleration, Angle, Force, Inertia, Length, Mass, Ratio};
 use occupant_core::body::SphereRow;
@@ -80,7 +82,12 @@ pub(crate) struct BodySection {
     /// "person": an abdomen, as a sphere and a plate above the pelvis, which belts, rims and doors can load; fitted to
     /// two values of belt pretensioner tests. "rigid", no abdomen, if absent.
     pub(crate) abdomen: Option<AbdomenChoice>,
-    /// Deformable parts by name, or changes to those of `chest`: `sternum`, `left_ribs`, `right_ribs`.
+    /// Ribs and abdomen under loads from the side: "person", which yield as from the front; "es2", those of a side impact
+    /// dummy; or "rigid". "rigid" if absent. With them the measures are those of a side impact. They need
+    /// `sphere_set` = "even" or "full".
+    pub(crate) sides: Option<SidesChoice>,
+    /// Deformable parts by name, or changes to those of `chest`: `sternum`, `left_ribs`, `right_ribs`; of `sides`:
+    /// `left_side`, `right_side`, `abdomen_side`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) plates: IndexMap<String, BodyPlateSection>,
     /// Springs and dampers between plates by name.
@@ -313,10 +320,13 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection,
         spheres: Vec::new(),
         plates: Vec::new(),
         chests: Vec::new(),
+        sides: Vec::new(),
     };
     body.plates = plates::plates(b, section, &body);
     body.spheres = spheres(b, section, &body);
     body.chests.extend(plates::chest(b, section, &body));
+    let sides = plates::sides(b, section, &mut body);
+    body.sides.extend(sides);
     Some(body)
 }
 

@@ -75,7 +75,7 @@ pub(super) use self::materials::MaterialSection;
 use self::mount::MountSection;
 use self::muscles::MusclesSection;
 use self::path::PathSection;
-pub(super) use self::plates::{AbdomenChoice, ChestChoice, PelvisChoice};
+pub(super) use self::plates::{AbdomenChoice, ChestChoice, PelvisChoice, SidesChoice};
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::retractors::RetractorSection;

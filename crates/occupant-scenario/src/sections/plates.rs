@@ -11,14 +11,15 @@ use super::functions::{function, listed, points};
 use super::nodes::NodeSection;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity, all_si, point, si_or};
 use super::{Damping, Force, Length, Mass, QuadraticDamping, Ratio, Scenario, Stiffness, Time};
-use occupant_core::body::{Body, Chest, Plate, Ride, Shares};
+use crate::presets::chest;
+use occupant_core::body::{Body, Chest, Plate, Ride, Shares, Sides};
 use occupant_core::forces::chain::Site;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::Surface;
 use occupant_core::forces::function::Function;
 use occupant_core::forces::plate::{Band, Damper};
 use occupant_core::model::seating::InitialPosture;
-use placed_text::with_key;
+use placed_text::{Problem, with_key};
 
 /// Distance from a plate, laterally and vertically, within which webbing loads it, for the reference person, m.
 const TENT_M: [f64; 2] = [0.13, 0.15];
@@ -70,6 +71,18 @@ pub(crate) enum AbdomenChoice {
     Rigid,
     /// A sphere that deforms under all contacts.
     Person,
+}
+
+/// Ribs and abdomen under loads from the side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum SidesChoice {
+    /// Rigid.
+    Rigid,
+    /// A person's: they yield to the side as to the front, fitted to no test from the side.
+    Person,
+    /// Those of the ES-2 side impact dummy, whose limits then apply: three ribs as one, and the load cells of its abdomen.
+    Es2,
 }
 
 /// A deformable part of a segment, which moves along a line.
@@ -346,6 +359,39 @@ pub(super) fn chest(b: &mut Builder, section: &BodySection, body: &Body) -> Opti
     let preset = choice.map_or("own", ChestChoice::name).to_owned();
     let viscous_scale = if preset.starts_with("dummy") { 1.3 } else { 1.0 };
     Some(Chest { of: String::new(), preset, breastbone, depth_m, viscous_scale, points: points.collect() })
+}
+
+/// The sides in the results, and the spheres that move with them: none if they are rigid.
+pub(super) fn sides(b: &mut Builder, section: &BodySection, body: &mut Body) -> Option<Sides> {
+    let choice = section.sides.filter(|choice| *choice != SidesChoice::Rigid)?;
+    let place = |name: &str| body.plates.iter().position(|plate| plate.name == name);
+    let [left, right] = chest::SIDES.map(|(name, _)| place(name));
+    let (Some(left), Some(right)) = (left, right) else {
+        let found = "the sides of a child or of a body with its own joints: they stay rigid";
+        b.report(Problem::warning("body.sides", found, "an adult preset or person; for others give `body.plates`"));
+        return None;
+    };
+    let abdomen = place(chest::ABDOMEN_SIDE);
+    let half_breadth_m = chest::half_breadth_m(choice, body);
+    // the middle of the chest moves half as far as a side that is pressed in
+    let of_chest = [
+        ("left_chest", vec![(left, 1.0)]),
+        ("right_chest", vec![(right, 1.0)]),
+        ("chest", vec![(left, 0.5), (right, 0.5)]),
+    ];
+    let of_abdomen = abdomen.map(|plate| ("abdomen", vec![(plate, chest::share_of_abdomen(choice))]));
+    for (name, shares) in of_chest.into_iter().chain(of_abdomen) {
+        let Some(sphere) = body.spheres.iter_mut().find(|sphere| sphere.name == name) else {
+            let found = format!("no sphere `{name}`, which carries what strikes the ribs or the abdomen");
+            b.error("body.sides", found, "body.sphere_set = \"even\", or \"full\"");
+            return None;
+        };
+        for ride in [&mut sphere.ride.contact, &mut sphere.ride.bag] {
+            ride.extend(&shares);
+        }
+    }
+    let preset = (if choice == SidesChoice::Es2 { "es2" } else { "person" }).to_owned();
+    Some(Sides { of: String::new(), preset, ribs: [left, right], abdomen, half_breadth_m })
 }
 
 /// Shares of sternum and lower ribs in the deflection of the upper ribs of a side: fitted to means of eight sled tests

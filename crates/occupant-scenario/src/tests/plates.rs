@@ -28,6 +28,55 @@ fn a_chest_of_a_person_comes_to_three_plates_that_scale_with_the_body() {
     assert!((0.1..0.15).contains(&small.body().plates[0].mass_kg));
 }
 
+const EVEN: &str = "body.sphere_set=even";
+
+#[test]
+fn sides_of_a_person_yield_as_the_front() {
+    let set = [EVEN, "body.chest=person", "body.abdomen=person", "body.sides=person"];
+    let (model, _) = changed(DRIVER, &set).unwrap();
+    let body = model.body();
+    let names: Vec<&str> = body.plates.iter().map(|plate| plate.name.as_str()).collect();
+    assert_eq!(names[4..], ["left_side", "right_side", "abdomen_side"]);
+    let (front, left) = (&model.setup().bands[0], &model.setup().bands[2]);
+    assert_eq!((&left.name[..], &left.spring, left.damper), ("left_side", &front.spring, front.damper));
+    // inwards is to the right on the left side; the plates stand where the spheres at the sides end
+    let ends = ["left_chest", "right_chest"].map(|name| {
+        let sphere = &body.spheres[body.sphere(name).unwrap()];
+        sphere.centre_from_lower_end_m.y.abs() + sphere.radius_m
+    });
+    for (plate, (sign, end_m)) in body.plates[4..6].iter().zip([1.0, -1.0].into_iter().zip(ends)) {
+        assert!((plate.place_from_lower_end_m.y - sign * end_m).abs() < 1e-12 && plate.inward.y == -sign);
+    }
+    let sides = &body.sides[0];
+    assert_eq!((&sides.preset[..], sides.ribs, sides.abdomen), ("person", [4, 5], Some(6)));
+    assert!((sides.half_breadth_m - ends[0]).abs() < 1e-12 && (0.14..0.17).contains(&ends[0]));
+    let ride = |name: &str| body.spheres[body.sphere(name).unwrap()].ride.clone();
+    assert_eq!(ride("left_chest").contact, [(0, 1.0), (4, 1.0)]);
+    assert_eq!(ride("chest").contact, [(0, 1.0), (4, 0.5), (5, 0.5)]);
+    assert_eq!(ride("abdomen").contact, [(3, 1.0), (6, 1.0)]);
+    assert_eq!((ride("left_chest").belt, ride("left_chest").bag), (vec![(0, 0.35)], vec![(0, 0.35), (4, 1.0)]));
+    // without them all is as it was
+    let (plain, _) = changed(DRIVER, &set[..3]).unwrap();
+    assert!(plain.body().sides.is_empty() && plain.body().plates.len() == 4);
+}
+
+#[test]
+fn sides_need_the_spheres_that_carry_what_strikes_them() {
+    for (changes, expected) in [
+        (&["body.sides=person"][..], "body.sphere_set = \"even\""),
+        (&[EVEN, "body.sides=person", "body.preset=child10"], "they stay rigid"),
+        (&[EVEN, "body.sides=es-2"], "es2"),
+        (&[EVEN, "body.sides=person", "body.plates.left_side.mass=9"], "at most a fifth of their segment's mass"),
+        (&[EVEN, "body.sides=es2", "body.spheres.left_chest.remove=true"], "no sphere `left_chest`"),
+    ] {
+        let said = match changed(DRIVER, changes) {
+            Ok((_, said)) => said,
+            Err(said) => said,
+        };
+        assert!(said.contains(expected), "{changes:?}: {said}");
+    }
+}
+
 #[test]
 fn a_rigid_chest_is_none() {
     let (model, _) = changed(DRIVER, &["body.chest=rigid"]).unwrap();

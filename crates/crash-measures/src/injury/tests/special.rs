@@ -132,6 +132,49 @@ fn a_blow_from_the_side_is_judged_by_rules_of_the_side() {
     assert!(of(&frontal, "rib_deflection").limits.is_empty() && of(&frontal, "rib_deflection").risks.is_empty());
 }
 
+/// What a simulated body with ribs to the side reads.
+fn struck_aside(sides: Ribs) -> Signals {
+    let cells = [(Special::Rib(0), pulse(0.043)), (Special::Abdomen(0), pulse(2400.0))];
+    Signals { sides: Some(sides), ..reads(cells) }
+}
+
+/// By size a body of 78 kg is an ES-2, and its ribs have the limits of the ES-2re as well; a woman of 48 kg is a SID-IIs.
+#[test]
+fn simulated_ribs_of_a_dummy_have_limits_of_its_kind() {
+    let signals = struck_aside(Ribs::Dummy);
+    let found = assess(&signals, &Options::default().for_side(78.0));
+    let limits = |name| of(&found, name).limits.iter().map(|l| (l.rule, l.passed)).collect::<Vec<_>>();
+    assert_eq!(limits("rib_deflection"), [("UN R95", false), ("FMVSS 214", true)]);
+    assert_eq!(limits("abdomen_force"), [("UN R95", true), ("FMVSS 214", true)]);
+    assert_eq!(limits("hic36").len(), 2);
+    near(&found, "rib_viscous_criterion", 0.043 * 0.043 * PI / (2.0 * 0.04 * 0.140), 1e-6);
+    let pubic = of(&found, "pubic_force");
+    assert!(pubic.value.is_none() && !pubic.brief && pubic.remark.as_deref().unwrap().contains("the pelvis is rigid"));
+    let small = Options::default().for_side(48.0);
+    assert_eq!((small.dummy, small.also), (Dummy::SidIis, None));
+    // a dummy that was asked for stays the only one
+    let asked = Options::default().with(Dummy::WorldSid50M).for_side(78.0);
+    assert_eq!((asked.dummy, asked.also), (Dummy::WorldSid50M, None));
+    let found = assess(&signals, &asked);
+    assert!(of(&found, "rib_deflection").limits.iter().all(|l| l.rule.starts_with("Euro NCAP") || l.rule == "UN R135"));
+}
+
+#[test]
+fn ribs_of_a_person_have_no_limit_of_a_dummy() {
+    let signals = struck_aside(Ribs::Person { half_breadth_m: 0.16 });
+    let found = assess(&signals, &Options::default().for_side(78.0));
+    near(&found, "rib_viscous_criterion", 0.043 * 0.043 * PI / (2.0 * 0.04 * 0.16), 1e-6);
+    for name in ["rib_deflection", "rib_viscous_criterion", "abdomen_force"] {
+        let own = of(&found, name);
+        assert!(own.value.is_some() && own.limits.is_empty() && own.risks.is_empty(), "{own:?}");
+    }
+    assert!(!of(&found, "hic36").limits.is_empty());
+    // a recorded test without such a body says nothing of a pelvis
+    assert!(
+        assess(&reads([(Special::Rib(0), pulse(0.03))]), &Options::default()).iter().all(|m| m.name != "pubic_force")
+    );
+}
+
 /// A whiplash test: T1 accelerates forward with 50 m/s² from the start; the head is at rest, and touches its restraint from
 /// 40 to 90 ms.
 fn rear() -> Signals {

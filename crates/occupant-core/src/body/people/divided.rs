@@ -264,6 +264,7 @@ impl Made<'_> {
             spheres: Vec::new(),
             plates: Vec::new(),
             chests: Vec::new(),
+            sides: Vec::new(),
         }
     }
 }

@@ -85,6 +85,7 @@ impl Stretch {
             spheres: Vec::new(),
             plates: Vec::new(),
             chests: Vec::new(),
+            sides: Vec::new(),
         }
     }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::strokes::{Beyond, Known};
 use super::{Ejection, Exit, Peak, RunStatus, SpherePeak, Summary, Throw, word};
-use crate::body::{Body, Chest, ContactSphere, Joint, Limb, Segment};
+use crate::body::{Body, Chest, ContactSphere, Joint, Limb, Segment, Sides};
 use crate::forces::chain::{Chain, Site};
 use crate::forces::rate::Rate;
 use crate::model::settle::Settled;
@@ -335,6 +335,18 @@ impl Caveat {
             "chest {of}. Under belts and bags, a constant share of their force (0.2 to 0.5 is plausible) bears on the sternum, and the deflection depends on it. Not valid for loads from the side or from behind, or for broken ribs"
         );
         Caveat::new("chest_of_one_share", text, Vec::new()).with_subject(&chest.of)
+    }
+
+    /// Uncertainty of sides that yield. It appears in every such run, so it marks no result.
+    pub(super) fn of_sides(sides: &Sides) -> Self {
+        let of = match sides.preset.as_str() {
+            "person" => {
+                "of a person yield as they do from the front: tests with hubs from the side are met, fitted to none of them. Limits of dummies do not apply to them"
+            }
+            _ => "of a dummy, with three ribs as one, fitted to drops of a rib and one test of its abdomen",
+        };
+        let text = format!("ribs and abdomen to the side {of}. Pelvis and shoulder are rigid: there is no pubic force");
+        Caveat::new("sides_as_one_rib", text, Vec::new()).with_subject(&sides.of)
     }
 
     fn own_chest(chest: &Chest) -> Self {

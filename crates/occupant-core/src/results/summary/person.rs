@@ -1,6 +1,7 @@
 //! Readings of the instruments of one body in a run.
 
 use super::{Acceleration, Accelerations, Excursion, Level, Peak, Person};
+use crate::kernel::instruments::SIDE_SIGNALS;
 use crate::model::Model;
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use crate::results::fine::{Fine, REAR_SIGNALS, SIGNALS};
@@ -52,8 +53,9 @@ impl Watched {
                 let is_read = self.has.get(n / 3).is_none_or(|has| *has);
                 values.push(if is_read { *number } else { f64::NAN });
             }
-            let rear = REAR.iter().copied().zip(fine.rear_of(sample));
-            for (which, number) in CHEST.into_iter().zip(&sample[SIGNALS..]).chain(rear) {
+            let more = [(&SIDE[..], fine.side_of(sample)), (&REAR[..], fine.rear_of(sample))];
+            let more = more.into_iter().flat_map(|(which, numbers)| which.iter().copied().zip(numbers));
+            for (which, number) in CHEST.into_iter().zip(&sample[SIGNALS..]).chain(more) {
                 if let Some(values) = self.signals.special.get_mut(&which) {
                     values.push(*number);
                 }
@@ -76,7 +78,7 @@ impl Watched {
         (0..3).filter(|i| !self.has[*i]).for_each(|i| own[i] = Peak::NONE);
         whole.signals.peaks =
             are_of_steps.then(|| std::array::from_fn(|i| Extreme { value: own[i].value, time_s: own[i].time_s }));
-        let options = options.for_body(self.mass_kg);
+        let options = self.options(options);
         let readings = Readings::new(&whole.signals, &options);
         let parts = [&readings.head, &readings.chest, &readings.pelvis];
         let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, own[i], parts[i]));
@@ -84,6 +86,14 @@ impl Watched {
         let (dummy, measures) = (options.dummy.name(), readings.measures());
         let person = Person { accelerations, head_excursion: self.excursion(&own), dummy, measures };
         (person, whole.signals)
+    }
+
+    /// Settings for this body: those of a dummy for the side if its ribs yield to the side.
+    pub(super) fn options(&self, options: &Options) -> Options {
+        match self.signals.sides {
+            Some(_) => options.for_side(self.mass_kg),
+            None => options.for_body(self.mass_kg),
+        }
     }
 
     fn excursion(&self, own: &[Peak; FELT]) -> Option<Excursion> {
@@ -113,7 +123,7 @@ impl Watched {
 /// Samples with space reserved at the start, 100 s at 10 kHz.
 const MOST_ROOM: usize = 1_000_000;
 
-/// Deflections of a chest in the order of a sample, and the signals for rear impact.
+/// Deflections of a chest in the order of a sample, and the signals for side and rear impact.
 const CHEST: [Special; 5] = [
     Special::ChestDeflection,
     Special::ChestPoint(ChestPoint::ALL[0]),
@@ -121,6 +131,8 @@ const CHEST: [Special; 5] = [
     Special::ChestPoint(ChestPoint::ALL[2]),
     Special::ChestPoint(ChestPoint::ALL[3]),
 ];
+const SIDE: [Special; SIDE_SIGNALS] =
+    [Special::Rib(0), Special::Abdomen(0), Special::LowerSpine(0), Special::LowerSpine(1), Special::LowerSpine(2)];
 const REAR: [Special; REAR_SIGNALS] = [Special::T1, Special::HeadRestraint, Special::HeadSpeed, Special::PelvisPlace];
 
 /// Signals with room for a whole run.
@@ -134,6 +146,13 @@ fn begun(model: &Model, fine: &Fine, name: &str, is_whole: bool) -> Signals {
         signals.special.extend(all.map(|which| (which, Vec::with_capacity(room))));
         let is_dummy = chest.preset.starts_with("dummy");
         signals.person = (!is_dummy).then_some(injury::Person { chest_depth_m: chest.depth_m, age_years: None });
+    }
+    if let Some(sides) = model.body().sides.iter().find(|sides| sides.of == name) {
+        let own = SIDE.into_iter().filter(|which| sides.abdomen.is_some() || *which != Special::Abdomen(0));
+        signals.special.extend(own.map(|which| (which, Vec::with_capacity(room))));
+        let half_breadth_m = sides.half_breadth_m;
+        let is_dummy = sides.preset != "person";
+        signals.sides = Some(if is_dummy { injury::Ribs::Dummy } else { injury::Ribs::Person { half_breadth_m } });
     }
     if fine.rear > 0 && is_whole {
         signals.special.extend(REAR.map(|which| (which, Vec::with_capacity(room))));

@@ -229,8 +229,9 @@ impl Summarizer {
         let mut caveats = signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
         caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
         caveats.extend(case.body.chests.iter().map(Caveat::of_chest));
+        caveats.extend(case.body.sides.iter().map(Caveat::of_sides));
         for (one, (name, person, signals)) in self.people.iter().zip(people) {
-            let (measures, options) = (&person.measures, self.options.for_body(one.mass_kg));
+            let (measures, options) = (&person.measures, one.options(&self.options));
             let off = injury::coarseness(signals, &options, measures);
             let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
             let cut: Vec<_> = measures.iter().filter(|m| is_cut_off(m, reached_s - signals.interval_s)).collect();
