@@ -81,7 +81,6 @@ fn ribs_of_a_person_meet_hubs_from_the_side_blind() {
         (9.5, [5000.0, 7000.0], [0.115, 0.18]),
     ] {
         let found = blow(MIDDLE_M, speed_m_s, 1.0, "[\"chest\"]", &[]);
-        println!("{speed_m_s} m/s: {:.0} N, {:.1} mm, {:?}", found.force_n, 1e3 * found.deep_m, found.sides_m);
         assert_within(&format!("{speed_m_s} m/s: force, N"), found.force_n, force_n);
         assert_within(&format!("{speed_m_s} m/s: depth, m"), found.deep_m, deep_m);
         assert_below("energy balance", found.balance, 1e-4);
@@ -92,7 +91,6 @@ fn ribs_of_a_person_meet_hubs_from_the_side_blind() {
 fn the_abdomen_of_a_person_meets_hubs_from_the_side_blind() {
     for (speed_m_s, force_n) in [(4.8, [1500.0, 3000.0]), (6.8, [3000.0, 4500.0]), (9.4, [4500.0, 8000.0])] {
         let found = blow(BELLY_M, speed_m_s, 1.0, "[\"abdomen\"]", &[]);
-        println!("{speed_m_s} m/s: {:.0} N, {:.1} mm, {:?}", found.force_n, 1e3 * found.deep_m, found.sides_m);
         assert_within(&format!("{speed_m_s} m/s: force, N"), found.force_n, force_n);
     }
 }
