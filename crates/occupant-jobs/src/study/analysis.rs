@@ -169,13 +169,22 @@ impl Linear {
 }
 
 /// One row per point of a design with crossed parameters: the point's inputs, and the mean response over all
-/// combinations of crossed values. Rows of one point are not independent, but these means are. Incomplete points are
-/// omitted.
+/// combinations of crossed values that have the response at all: a woman has no Nkm. Rows of one point are not
+/// independent, but these means are. Incomplete points are omitted.
 fn means_of_points(samples: &Samples, values: &[f64], crossing: u64) -> (Vec<Input>, Vec<f64>) {
     let rows: Vec<usize> = (0..samples.len()).collect();
+    let combination = |row: usize| (samples.numbers[row] % crossing) as usize;
+    let mut has_response = vec![false; crossing as usize];
+    for row in rows.iter().filter(|row| values[**row].is_finite()) {
+        has_response[combination(*row)] = true;
+    }
+    let responses = has_response.iter().filter(|has| **has).count() as f64;
     let points = rows.chunk_by(|a, b| samples.numbers[*a] / crossing == samples.numbers[*b] / crossing);
     let whole: Vec<&[usize]> = points.filter(|rows| rows.len() as u64 == crossing).collect();
-    let mean = |rows: &&[usize]| rows.iter().map(|row| values[*row]).sum::<f64>() / crossing as f64;
+    let mean = |rows: &&[usize]| {
+        let counted = rows.iter().filter(|row| has_response[combination(**row)]);
+        counted.map(|row| values[*row]).sum::<f64>() / responses
+    };
     let of_points =
         |input: &Input| Input { values: whole.iter().map(|rows| input.values[rows[0]]).collect(), ..input.clone() };
     (samples.inputs.iter().map(of_points).collect(), whole.iter().map(mean).collect())
