@@ -288,3 +288,23 @@ fn said(error: &AnalysisError) -> String {
         e => e.to_string(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three points times two sexes: a response of men alone, one of both, and one that a run of a man lacks.
+    #[test]
+    fn means_of_points_leave_out_combinations_without_the_response() {
+        let input = Input { values: vec![1.0, 1.0, 2.0, 2.0, 3.0, 3.0], ..Input::default() };
+        let samples = Samples { numbers: (0..6).collect(), inputs: vec![input], ..Samples::default() };
+        let of = |values: [f64; 6]| means_of_points(&samples, &values, 2);
+        let none = f64::NAN;
+        let (inputs, men) = of([10.0, none, 20.0, none, 30.0, none]);
+        assert_eq!((&inputs[0].values[..], &men[..]), (&[1.0, 2.0, 3.0][..], &[10.0, 20.0, 30.0][..]));
+        assert_eq!(of([10.0, 20.0, 20.0, 40.0, 30.0, 60.0]).1, [15.0, 30.0, 45.0]);
+        let lacking = of([10.0, 20.0, none, 40.0, 30.0, 60.0]).1;
+        assert!(lacking[0] == 15.0 && lacking[1].is_nan() && lacking[2] == 45.0);
+        assert!(of([none; 6]).1.iter().all(|mean| mean.is_nan()));
+    }
+}
