@@ -216,7 +216,7 @@ fn mistakes_name_the_file_line_and_column() {
             "t[s],x[m],q[m]\n0,0,0\n",
             "error: unknown column `q`
  --> path.csv:1:11
-  = expected: `t`, `x`, `y`, `z`, `roll`, `pitch` or `yaw`",
+  = expected: `t`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`, `ax`, `ay` or `az`",
         ),
         (
             "t[s],x\n0,0\n",
@@ -234,7 +234,7 @@ fn mistakes_name_the_file_line_and_column() {
             "user:secret,q\nroot:hidden,0\n",
             "error: a first line without any known column
  --> path.csv:1:1
-  = expected: `t`, `x`, `y`, `z`, `roll`, `pitch` or `yaw`",
+  = expected: `t`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`, `ax`, `ay` or `az`",
         ),
         (
             "x[m]\n0\n",
