@@ -214,7 +214,8 @@ fn crashes_and_people_do_what_textbooks_say() {
             &[],
             "car.seats.driver.back_moment",
             &["'1.5 kN m'", "'3 kN m'", "'10 kN m'"],
-            &[("t1_acceleration", Rises), ("nic", Rises)],
+            // not NIC: a stiffer back also brings the head to its restraint earlier
+            &[("t1_acceleration", Rises)],
         ),
     ]);
 }
