@@ -5,11 +5,13 @@ use occupant_core::model::Model;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::{assert_below, assert_within};
 use occupant_tests::room::setup;
 
 const CHEST: &str = include_str!("../../scenarios/impactor-chest.toml");
+const DOOR: &str = include_str!("../../scenarios/templates/side.toml");
 
 /// Start of the hub before the chest, along its way: 30° before the side, as in the tests of Viano (1989).
 const FROM_DEG: f64 = 60.0;
@@ -124,4 +126,62 @@ fn a_rib_of_es2_meets_three_drops() {
         let deepest_m = start_m_s / omega * (-zeta / (1.0 - zeta * zeta).sqrt() * zeta.acos()).exp();
         assert_within(&format!("{speed_m_s} m/s: mm"), 1e3 * deepest_m, mm);
     }
+}
+
+/// What a door does that strikes the left arm alone: impulses of the door on the arm and of the arm on ribs and abdomen to the right,
+/// N·s, deflection of the ribs, m, and the error of the energy balance.
+fn through_the_arm(set: &[&str]) -> [f64; 4] {
+    let alone = "solids.left_door.spheres=[\"left_upper_arm\", \"left_elbow\", \"left_forearm\"]";
+    let own = [alone, "car.bags=null", "time.end=60 ms", "output.interval=0.1 ms"];
+    let set: Vec<&str> = own.iter().chain(set).copied().collect();
+    let model = Model::new(setup(DOOR, &set)).unwrap_or_else(|problems| panic!("{problems}"));
+    let (body, surfaces) = (model.body(), model.setup().surfaces.len() + model.setup().solids.len());
+    let door = model.setup().surface_names().position(|name| name == "left_door").unwrap();
+    let ribs = body.plates.iter().position(|plate| plate.name == "left_side").unwrap();
+    let is_of = |sphere: usize, parts: &[&str]| parts.contains(&body.spheres[sphere].part.as_str());
+    let is_arm = |sphere: usize| is_of(sphere, &["left_upper_arm", "left_elbow", "left_forearm"]);
+    let mut found = [0.0; 4];
+    let watch = Watch(|s: &Sample<'_>| {
+        for touch in s.contacts() {
+            let impulse = 1e-4 * touch.force_n.y;
+            if touch.surface == door {
+                assert!(is_arm(touch.sphere));
+                found[0] += impulse;
+            } else if is_of(touch.sphere, &["chest", "abdomen"])
+                && touch.surface.checked_sub(surfaces).is_some_and(is_arm)
+            {
+                found[1] += impulse;
+            }
+        }
+        found[2] = f64::max(found[2], s.actions.plates[ribs].deflection_m());
+    });
+    let outcome = simulate(&model, watch).unwrap();
+    found[3] = outcome.energy.balance_error;
+    found
+}
+
+/// A door that strikes an arm presses the ribs by way of the arm; without contact between them the arm goes through the chest.
+#[test]
+fn a_door_presses_the_ribs_through_the_arm() {
+    let [door, ribs, deflection_m, balance] = through_the_arm(&[]);
+    let [_, none, inertia_m, _] = through_the_arm(&["self_contact=null"]);
+    println!("{door} {ribs} {deflection_m} {balance}; {none} {inertia_m}");
+    assert_within("part of the door's impulse on ribs and abdomen", ribs / door, [0.4, 1.0]);
+    assert_within("ribs, m", deflection_m, [0.01, 0.06]);
+    assert_below("ribs without contact, m", inertia_m, 0.003);
+    assert_eq!(none, 0.0);
+    assert_below("energy balance", balance, 1e-4);
+}
+
+/// The legs of the template stop each other: where they pass through each other the left hip twists beyond its limit.
+#[test]
+fn the_leg_beside_a_door_is_stopped_by_the_other() {
+    let twist = |set: &[&str]| {
+        let model = Model::new(setup(DOOR, set)).unwrap_or_else(|problems| panic!("{problems}"));
+        let mut summarizer = Summarizer::new();
+        simulate(&model, &mut summarizer).unwrap();
+        let caveats = summarizer.summary(None).unwrap().caveats;
+        caveats.iter().any(|caveat| caveat.name == "left_hip_beyond_stop")
+    };
+    assert!(!twist(&[]) && twist(&["self_contact=null"]));
 }

@@ -203,6 +203,31 @@ fn a_loop_that_would_slide_off_the_wings_is_told_of() {
     assert_eq!(warned, [0, 1], "wings");
 }
 
+/// Webbing cannot leave plain points of a pelvis: that is said before the run, once for a belt, with the way out.
+#[test]
+fn a_lap_belt_over_plain_points_of_the_pelvis_is_told_of() {
+    let said = |text: &str| {
+        let model = Model::new(setup(text, &[])).unwrap_or_else(|problems| panic!("{problems}"));
+        let said = model.warnings().to_string();
+        (said.matches("submarining cannot be seen").count(), said, diagnose(&model).lap_belts.len())
+    };
+    let plain = |below: f64| {
+        let text = held_text(below);
+        let wings = ["wing = \"left\"", "wing = \"right\""];
+        let points = ["on = \"lower_torso\", at = [0.1, 0.09, 0.06]", "on = \"lower_torso\", at = [0.1, -0.09, 0.06]"];
+        (0..2).fold(text, |text, i| text.replace(wings[i], points[i]))
+    };
+    let (count, words, slides) = said(&plain(0.3));
+    assert_eq!((count, slides), (1, 0), "{words}");
+    assert!(words.contains("a lap belt over `left`") && words.contains("wing = \"left\""), "{words}");
+    // one that pulls up is told of as one round the pelvis is
+    assert_eq!(said(&plain(-0.1)).2, 1);
+    // on wings it can be seen, and a belt over the chest is none
+    assert_eq!(said(&held_text(0.3)).0, 0);
+    let chest = plain(0.3).replace("on = \"lower_torso\"", "on = \"upper_torso\"");
+    assert_eq!(said(&chest).0, 0);
+}
+
 /// What makes no sense is refused with its place.
 #[test]
 fn wings_that_make_no_sense_are_refused() {

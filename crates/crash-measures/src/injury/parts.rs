@@ -48,6 +48,7 @@ pub(super) const SIDE: &[Definition] = &[
     measure("rib_viscous_criterion", "viscous criterion of a rib", MetrePerSecond, Cfc180, |r| {
         r.rib_viscous(Special::Rib, 3)
     })
+    .brief()
     .limited(Quantity::RibViscousCriterion),
     measure("abdomen_rib_deflection", "deepest rib of the abdomen", Metre, Cfc180, |r| {
         r.deepest(&r.several(2, Special::AbdomenRib)?)

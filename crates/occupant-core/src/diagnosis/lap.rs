@@ -47,6 +47,10 @@ fn of_chain(model: &Model, chain: &Chain) -> Option<LapBelt> {
             let segment = body.tree.segment(*segment);
             Some((body.tree[segment].name, segment, track.points_m[1]))
         }
+        Site::Segment(segment, point_m, _) => {
+            let segment = body.tree.segment(*segment);
+            Some((body.tree[segment].name, segment, *point_m))
+        }
         _ => None,
     };
     let is_lap = |node: &Node| on(node).is_some_and(|(_, segment, _)| is_pelvis(model, segment));

@@ -20,7 +20,8 @@ pub(crate) struct SelfContactSection {
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) skins: IndexMap<String, String>,
     /// Pairs of parts that can touch. If absent: hands, elbows, knees, thighs, shins and feet with the parts within
-    /// their reach. Parts that share a joint, or overlap in a standing body, never touch.
+    /// their reach, and arms with the ribs and the abdomen of a body with `sides`. Parts that share a joint, or overlap
+    /// in a standing body, never touch.
     pub(crate) pairs: Option<Vec<[String; 2]>>,
 }
 

@@ -21,9 +21,13 @@ const MOST_FRICTION: f64 = 0.6;
 const MOST_START_N: f64 = 100.0;
 
 pub(super) fn data(chains: &[Chain], body: &Body, problems: &mut Problems) {
-    for chain in chains {
+    for (i, chain) in chains.iter().enumerate() {
         let path = with_key("belts", &chain.belt);
         nodes(chain, body, &path, problems);
+        // once for the parts of a belt between ties
+        if chains[..i].iter().all(|part| part.belt != chain.belt || plain_lap(part, body).is_none()) {
+            submarining(chain, body, &path, problems);
+        }
         let falls = "forces that rise from point to point";
         chain.webbing.check(&format!("{path}.webbing"), Goes::Up, falls, problems);
         device(chain, &path, problems);
@@ -38,6 +42,34 @@ pub(super) fn data(chains: &[Chain], body: &Body, problems: &mut Problems) {
             Rest::Slack(slack_m) => problems.error(format!("{path}.slack"), format!("{slack_m} m"), "a finite length"),
         }
     }
+}
+
+/// First plain point of a pelvis on the way of a lap belt, one that comes from or goes to the vehicle there; none if the
+/// belt lies on wings or other tracks of it.
+fn plain_lap(chain: &Chain, body: &Body) -> Option<usize> {
+    let pelvis_of = |node: &Node| {
+        let (Site::Segment(segment, ..) | Site::Track(segment, _)) = node.site else { return None };
+        let segment = (segment < body.segments.len()).then(|| body.tree.segment(segment))?;
+        body.tree.landmarks_at(segment).pelvis.filter(|pelvis| *pelvis == segment)
+    };
+    if chain.nodes.iter().any(|node| matches!(node.site, Site::Track(..)) && pelvis_of(node).is_some()) {
+        return None;
+    }
+    let is_vehicle = |node: Option<&Node>| node.is_some_and(|node| matches!(node.site, Site::Vehicle(..)));
+    let is_lap = |k: &usize| {
+        let beside = [k.checked_sub(1), Some(k + 1)].map(|k| chain.nodes.get(k?));
+        pelvis_of(&chain.nodes[*k]).is_some() && beside.into_iter().any(is_vehicle)
+    };
+    (0..chain.nodes.len()).find(is_lap)
+}
+
+/// Warns of a lap belt over plain points of the pelvis, which webbing cannot leave.
+fn submarining(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {
+    let Some(k) = plain_lap(chain, body) else { return };
+    let found = format!("a lap belt over `{}`, a plain point of the pelvis", chain.nodes[k].name);
+    let expected = "nodes with `wing = \"left\"` and `wing = \"right\"`: webbing cannot slide up from a plain point, so submarining cannot be seen";
+    let hint = "or use `preset = \"three_point\"` with `lap = \"wings\"`";
+    problems.push(Problem::warning(format!("{path}.nodes[{k}]"), found, expected).with_hint(Some(hint)));
 }
 
 fn nodes(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {

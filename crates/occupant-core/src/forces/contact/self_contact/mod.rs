@@ -38,6 +38,14 @@ const MEETS: [(&str, &[&str]); 6] = [
     ("foot", &["other foot"]),
 ];
 
+/// The same of a body whose ribs yield to the side: what lies between a door and them.
+#[rustfmt::skip]
+const MEETS_SIDES: [(&str, &[&str]); 3] = [
+    ("upper_arm", &["chest", "abdomen"]),
+    ("elbow", &["chest", "abdomen"]),
+    ("forearm", &["chest", "abdomen"]),
+];
+
 /// Spheres that overlap by more than this in a body that stands with its arms held out to the sides are neighbours, which do not
 /// meet, m. No sphere of an arm has neighbours then but those of its own joints.
 const NEIGHBOURS_M: f64 = 0.005;
@@ -45,7 +53,8 @@ const NEIGHBOURS_M: f64 = 0.005;
 impl SelfContact {
     /// Everything that parts of `body` can touch, its skin of one material (index).
     pub fn of(body: &Body, material: usize) -> Self {
-        let names = MEETS.iter().flat_map(|(part, others)| {
+        let of_sides = if body.sides.is_empty() { &[][..] } else { &MEETS_SIDES[..] };
+        let names = MEETS.iter().chain(of_sides).flat_map(|(part, others)| {
             [["left_", "right_"], ["right_", "left_"]].into_iter().flat_map(move |[own, other]| {
                 others.iter().flat_map(move |word| {
                     let names = match word.strip_prefix("other ") {
