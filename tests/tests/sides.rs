@@ -185,3 +185,21 @@ fn the_leg_beside_a_door_is_stopped_by_the_other() {
     };
     assert!(!twist(&[]) && twist(&["self_contact=null"]));
 }
+
+/// Arms meet ribs that yield to the side without being named; they go through rigid ones as before.
+#[test]
+fn arms_meet_ribs_that_yield_to_the_side() {
+    let pairs = |set: &[&str]| {
+        let model = Model::new(setup(DOOR, set)).unwrap_or_else(|problems| panic!("{problems}"));
+        let part = |sphere: usize| model.body().spheres[sphere].part.clone();
+        let pairs = &model.setup().self_contact.as_ref().unwrap().pairs;
+        pairs.iter().map(|[a, b]| format!("{} {}", part(*a), part(*b))).collect::<Vec<_>>()
+    };
+    let (rigid, sides) = (pairs(&["body.sides=rigid"]), pairs(&[]));
+    for pair in ["chest left_upper_arm", "chest right_forearm", "abdomen left_elbow"] {
+        let reversed = pair.split(' ').rev().collect::<Vec<_>>().join(" ");
+        let has = |names: &[String]| names.iter().any(|name| *name == pair || *name == reversed);
+        assert!(has(&sides) && !has(&rigid), "{pair}");
+    }
+    assert!(rigid.iter().all(|pair| sides.contains(pair)));
+}

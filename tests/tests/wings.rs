@@ -220,6 +220,13 @@ fn a_lap_belt_over_plain_points_of_the_pelvis_is_told_of() {
     let (count, words, slides) = said(&plain(0.3));
     assert_eq!((count, slides), (1, 0), "{words}");
     assert!(words.contains("a lap belt over `left`") && words.contains("wing = \"left\""), "{words}");
+    // in tables of many runs too
+    let unseen = |text: &str| {
+        let mut summarizer = Summarizer::new();
+        simulate(&Model::new(setup(text, &[])).unwrap(), &mut summarizer).unwrap();
+        summarizer.summary(None).unwrap().caveats.iter().any(|caveat| caveat.name == "lap_submarining_unseen")
+    };
+    assert!(unseen(&plain(0.3)) && !unseen(&held_text(0.3)));
     // one that pulls up is told of as one round the pelvis is
     assert_eq!(said(&plain(-0.1)).2, 1);
     // on wings it can be seen, and a belt over the chest is none

@@ -61,26 +61,6 @@ fn sides_of_a_person_yield_as_the_front() {
 }
 
 #[test]
-fn arms_meet_ribs_that_yield_to_the_side() {
-    let own = ["materials.flesh={ k1 = 60e3, mu1 = 0.5, friction = 0.3 }", "self_contact={ skin = \"flesh\" }"];
-    let pairs = |more: &[&str]| {
-        let set: Vec<&str> = [EVEN].iter().chain(&own).chain(more).copied().collect();
-        let (model, _) = changed(DRIVER, &set).unwrap();
-        let part = |sphere: usize| model.body().spheres[sphere].part.clone();
-        let pairs = &model.setup().self_contact.as_ref().unwrap().pairs;
-        let mut names: Vec<String> = pairs.iter().map(|[a, b]| format!("{} {}", part(*a), part(*b))).collect();
-        names.dedup();
-        names
-    };
-    let (rigid, sides) = (pairs(&[]), pairs(&["body.sides=person"]));
-    for pair in ["chest left_upper_arm", "chest right_forearm"] {
-        assert!(sides.iter().any(|name| name == pair), "{pair}: {sides:?}");
-        assert!(rigid.iter().all(|name| name != pair));
-    }
-    assert!(rigid.iter().all(|pair| sides.contains(pair)), "{rigid:?}");
-}
-
-#[test]
 fn sides_need_the_spheres_that_carry_what_strikes_them() {
     for (changes, expected) in [
         (&["body.sides=person"][..], "body.sphere_set = \"even\""),

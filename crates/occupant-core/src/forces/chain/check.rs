@@ -21,13 +21,10 @@ const MOST_FRICTION: f64 = 0.6;
 const MOST_START_N: f64 = 100.0;
 
 pub(super) fn data(chains: &[Chain], body: &Body, problems: &mut Problems) {
-    for (i, chain) in chains.iter().enumerate() {
+    plain_laps(chains, body).for_each(|(chain, k)| submarining(chain, k, problems));
+    for chain in chains {
         let path = with_key("belts", &chain.belt);
         nodes(chain, body, &path, problems);
-        // once for the parts of a belt between ties
-        if chains[..i].iter().all(|part| part.belt != chain.belt || plain_lap(part, body).is_none()) {
-            submarining(chain, body, &path, problems);
-        }
         let falls = "forces that rise from point to point";
         chain.webbing.check(&format!("{path}.webbing"), Goes::Up, falls, problems);
         device(chain, &path, problems);
@@ -63,9 +60,18 @@ fn plain_lap(chain: &Chain, body: &Body) -> Option<usize> {
     (0..chain.nodes.len()).find(is_lap)
 }
 
-/// Warns of a lap belt over plain points of the pelvis, which webbing cannot leave.
-fn submarining(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {
-    let Some(k) = plain_lap(chain, body) else { return };
+/// Lap belts over plain points of a pelvis, which webbing cannot leave, and the first such node of each: once for the parts of a
+/// belt between ties.
+pub(crate) fn plain_laps<'c>(chains: &'c [Chain], body: &'c Body) -> impl Iterator<Item = (&'c Chain, usize)> {
+    let lap = |chain: &'c Chain| Some((chain, plain_lap(chain, body)?));
+    let is_first = move |i: usize, belt: &str| chains[..i].iter().filter_map(lap).all(|(part, _)| part.belt != belt);
+    let laps = chains.iter().enumerate().filter_map(move |(i, chain)| Some((i, lap(chain)?)));
+    laps.filter(move |(i, (chain, _))| is_first(*i, &chain.belt)).map(|(_, lap)| lap)
+}
+
+/// Warns of such a belt.
+fn submarining(chain: &Chain, k: usize, problems: &mut Problems) {
+    let path = with_key("belts", &chain.belt);
     let found = format!("a lap belt over `{}`, a plain point of the pelvis", chain.nodes[k].name);
     let expected = "nodes with `wing = \"left\"` and `wing = \"right\"`: webbing cannot slide up from a plain point, so submarining cannot be seen";
     let hint = "or use `preset = \"three_point\"` with `lap = \"wings\"`";

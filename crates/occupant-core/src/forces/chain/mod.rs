@@ -33,6 +33,7 @@ use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::Quantity;
+pub(crate) use check::plain_laps;
 pub use data::*;
 pub use law::ChainLaw;
 use law::{Committed, Lies, Now};

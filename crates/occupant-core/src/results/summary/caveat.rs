@@ -272,6 +272,15 @@ impl Caveat {
         Some(Caveat::new(format!("submarining_{side}"), text, figures))
     }
 
+    /// Lap belt over plain points of a pelvis. It appears in every such run, so it marks no result.
+    pub(super) fn submarining_unseen(chain: &Chain) -> Self {
+        let belt = &chain.belt;
+        let text = format!(
+            "the belt {belt} lies on plain points of the pelvis, which it cannot leave: submarining cannot be seen. Nodes with `wing` show it"
+        );
+        Caveat::new(format!("{belt}_submarining_unseen"), text, Vec::new())
+    }
+
     /// Shoulder belt off the shoulder under load since a time, s.
     pub(super) fn off_shoulder(chain: &Chain, time_s: f64) -> Self {
         let seen = format!("was off the shoulder at {:.1} ms, under load", 1e3 * time_s);

@@ -11,7 +11,7 @@ use super::signs::Signs;
 use super::{Caveat, ContactBegin, Ejection, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary, word};
 use crate::body::{Body, ContactSphere};
 use crate::forces::bag::Bag;
-use crate::forces::chain::Chain;
+use crate::forces::chain::{Chain, plain_laps};
 use crate::kernel::instruments::{READINGS, Reading};
 use crate::model::Model;
 use crate::model::settle::Settled;
@@ -230,6 +230,7 @@ impl Summarizer {
         caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
         caveats.extend(case.body.chests.iter().map(Caveat::of_chest));
         caveats.extend(case.body.sides.iter().map(Caveat::of_sides));
+        caveats.extend(plain_laps(&case.chains, &case.body).map(|(chain, _)| Caveat::submarining_unseen(chain)));
         for (one, (name, person, signals)) in self.people.iter().zip(people) {
             let (measures, options) = (&person.measures, one.options(&self.options));
             let off = injury::coarseness(signals, &options, measures);
