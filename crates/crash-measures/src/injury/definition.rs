@@ -3,7 +3,7 @@
 use super::readings::Readings;
 use super::{Filtering, Measure, Options, Risk};
 use crate::measure::risk::Severity;
-use crate::measure::{Dummy, Peak, Quantity, ThreeMs};
+use crate::measure::{Dummy, LIMITS, Peak, Quantity, ThreeMs};
 use crate::signal::{ChannelClass, SignalError};
 use occupant_units::unit::Unit;
 
@@ -19,6 +19,8 @@ pub(super) struct Definition {
     /// Remark if its signal is missing; without one the measure is then left out.
     absent: Option<&'static str>,
     limited: Option<Quantity>,
+    /// Quantity whose limits say what change of it matters.
+    weighed: Option<Quantity>,
     risks: &'static [(&'static str, Severity)],
     curve: fn(f64, Severity, Dummy) -> Option<f64>,
 }
@@ -65,8 +67,9 @@ pub(super) const fn measure(
     class: ChannelClass,
     of: Make,
 ) -> Definition {
-    let (figure, absent, limited, risks) = (Some(name), None, None, &[]);
-    Definition { name, label, unit, figure, brief: false, class, of, absent, limited, risks, curve: |_, _, _| None }
+    let (figure, absent, limited, weighed, risks) = (Some(name), None, None, None, &[]);
+    let curve = |_, _, _| None;
+    Definition { name, label, unit, figure, brief: false, class, of, absent, limited, weighed, risks, curve }
 }
 
 impl Definition {
@@ -91,7 +94,19 @@ impl Definition {
     /// Compares it with the limits of a quantity.
     pub(super) const fn limited(mut self, quantity: Quantity) -> Self {
         self.limited = Some(quantity);
+        self.weighed(quantity)
+    }
+
+    /// Weighs its changes by the limits of a quantity.
+    pub(super) const fn weighed(mut self, quantity: Quantity) -> Self {
+        self.weighed = Some(quantity);
         self
+    }
+
+    /// The least limit by which its changes are weighed, whatever the rule and the dummy; none without.
+    pub(super) fn weight(&self, name: &str) -> Option<f64> {
+        let quantity = self.weighed.filter(|_| self.name == name)?;
+        LIMITS.iter().filter(|limit| limit.quantity == quantity).map(|limit| limit.most).min_by(f64::total_cmp)
     }
 
     /// Adds risk curves.

@@ -172,15 +172,17 @@ const FEWEST: usize = 4;
 
 /// Largest relative change of each of `measures`, computed from `signals`, when the even or the odd samples are left
 /// out: it detects spikes of a single sample. 1 with fewer than four samples; 0 where the change is unknown or smaller
-/// than 1 % of all limits (of 1 for a pure number without limits).
+/// than 1 % of all limits. Without limits for the body those for any dummy count (for NIC at contact those of NIC), else
+/// 1 for a pure number.
 pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) -> Vec<f64> {
     let halves = [0, 1].map(|first| assess(&signals.every_other(first), options));
     let change = |whole: &Measure, half: &Measure| {
         let value = whole.value?;
         let half = if signals.len() < FEWEST { 0.0 } else { half.value? };
         let change = (half - value).abs();
-        let is_bare = whole.limits.is_empty() && whole.unit == Unit::One;
-        let scales = whole.limits.iter().map(|limit| limit.most).chain(is_bare.then_some(1.0));
+        let other = || readings::weight(whole.name).or((whole.unit == Unit::One).then_some(1.0));
+        let other = if whole.limits.is_empty() { other() } else { None };
+        let scales = whole.limits.iter().map(|limit| limit.most).chain(other);
         let matters = scales.into_iter().all(|scale| change > 0.01 * scale);
         matters.then_some(change / value.abs()).filter(|part| part.is_finite())
     };

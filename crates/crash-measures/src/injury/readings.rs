@@ -121,6 +121,11 @@ impl Readings {
     }
 }
 
+/// The limit by which changes of a measure are weighed where no limit applies to the body; none without.
+pub(super) fn weight(name: &str) -> Option<f64> {
+    LISTS.iter().flat_map(|list| *list).find_map(|definition| definition.weight(name))
+}
+
 fn peak_of(peaks: &Option<Extremes>, which: Extreme) -> Option<Peak> {
     peaks.map(|peaks| peaks[which as usize]).filter(|peak| peak.value.is_finite())
 }

@@ -15,7 +15,8 @@ use occupant_units::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared, N
 /// Measures of whiplash.
 pub(super) const WHIPLASH: &[Definition] = &[
     measure("nic", "NIC, m²/s²", One, Cfc60, |r| Ok(at(r.nic()?.greatest))).brief().limited(Quantity::Nic),
-    measure("nic_at_contact", "NIC at head contact, m²/s²", One, Cfc60, Readings::nic_at_contact),
+    measure("nic_at_contact", "NIC at head contact, m²/s²", One, Cfc60, Readings::nic_at_contact)
+        .weighed(Quantity::Nic),
     measure("nkm", "Nkm", One, Cfc600, Readings::nkm).brief().limited(Quantity::Nkm),
     measure("neck_shear_ahead", "neck shear, head pushed forward", Newton, Cfc1000, |r| {
         r.is_rear()?;

@@ -172,6 +172,13 @@ fn what_rests_is_not_too_coarse_for_any_measure() {
     assert_eq!(coarseness(&signals, &Options::default(), &measures)[of("damage")], 0.0);
 }
 
+/// NIC at contact may pass zero, where any change is much of itself: what NIC may be says what matters.
+#[test]
+fn what_has_no_limit_for_a_body_is_weighed_by_those_of_any_dummy() {
+    let weights = ["nic", "nic_at_contact", "viscous_criterion", "damage", "nothing"].map(readings::weight);
+    assert_eq!(weights, [Some(9.0), Some(9.0), Some(0.5), None, None]);
+}
+
 #[test]
 fn too_few_samples_to_leave_any_out_are_too_coarse() {
     let mut signals = dummy();
