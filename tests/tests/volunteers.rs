@@ -353,24 +353,40 @@ fn a_braked_volunteer_goes_ahead_about_as_far_as_passengers() {
 }
 
 /// ISO/TR 9790, neck test 1, from seven volunteers of NBDL: flexion 44 to 59 deg, head 130 to 162 mm to the side and 64 to 94 mm down
-/// against T1, twist 32 to 45 deg, 8 to 11 g to the side, 8 to 10 g down. Nothing sideways is fitted.
+/// against T1, twist 32 to 45 deg, 8 to 11 g to the side, 8 to 10 g down. Nothing sideways is fitted to these tests; the roll of T1 is
+/// inferred (`lateral.toml`).
 #[test]
 fn a_volunteer_driven_to_the_side_bends_nearly_as_men_did() {
+    /// Roll of T1 at the head's peak.
+    const ROLL_DEG: f64 = 10.0;
     let seen = |set: &[&str]| {
         let (run, _) = series(setup(LATERAL, set));
         let range = |name: &str| change(&run, name, 1.0).map(f64::abs).into_iter().fold(0.0, f64::max);
         let g = |axis: &str| range(&format!("head.kinematic_acceleration.{axis}")) / STANDARD_GRAVITY_MPS2;
         let [flexion, twist] = ["x", "z"].map(|axis| range(&format!("head.rotation.{axis}")).to_degrees());
-        [flexion, 1e3 * range("head.level_position.y"), 1e3 * range("head.level_position.z"), twist, g("y"), g("z")]
+        [
+            flexion - ROLL_DEG,
+            1e3 * range("head.level_position.y"),
+            1e3 * range("head.level_position.z"),
+            twist,
+            g("y"),
+            g("z"),
+        ]
     };
     let aware = seen(&[]);
     let dead = seen(&["joints.preset=person"]);
     let middles = [51.5, 146.0, 79.0, 38.5, 9.5, 9.0];
     let off: Vec<f64> = aware.iter().zip(middles).map(|(ours, theirs)| ours / theirs - 1.0).collect();
-    // flexion, way to the side and twist within 20 %; down 25 % too little, 40 % too hard
-    assert!([0, 1, 3].iter().all(|i| off[*i].abs() < 0.20), "{off:.2?}");
-    assert!(off.iter().all(|off| off.abs() < 0.45), "{off:.2?}");
+    // measured: -2, -11, -20, -16, +34, +6 %
+    assert!([0, 1, 2, 3, 5].iter().all(|i| off[*i].abs() < 0.21), "{off:.2?}");
+    assert!(off.iter().all(|off| off.abs() < 0.36), "{off:.2?}");
     assert!(dead[0] > 1.15 * aware[0], "{dead:?}");
+    // an upright T1 throws the head harder and less far
+    let rows =
+        [[0.0, 0.0], [0.02, 0.5], [0.04, 4.0], [0.065, 15.0], [0.085, 8.0], [0.105, 4.5], [0.13, 2.0], [0.15, 0.0]];
+    let rows = rows.map(|[time_s, g]| format!("[{time_s}, {g}, 0]")).join(", ");
+    let upright = seen(&[&format!("path.rows=[{rows}]")]);
+    assert!(upright[1] < 0.93 * aware[1] && upright[4] > 1.1 * aware[4], "{upright:?}");
 }
 
 /// Eight women at 6.8 km/h, 10 cm before the head restraint: NIC 3.9 m²/s² on average (Carlsson et al. 2021), in another seat.
