@@ -58,6 +58,12 @@ impl Loaded {
                 break;
             }
         }
+        if let Some(change_m) = last.changes_m.last().filter(|change_m| **change_m >= settled_m) {
+            let found = format!("pass {asked}, the last, still moved a vehicle by {:.1} mm", 1e3 * change_m);
+            let expected =
+                format!("more passes: they end once all positions change by less than {} mm", 1e3 * settled_m);
+            problems.add(Problem::warning("drive.passes", found, expected), at);
+        }
         Ok(last)
     }
 }

@@ -53,26 +53,8 @@ impl Ready {
             return None;
         }
         document.root = car::whole(&mut document.sources, &document.root);
-        let whole = document.root.clone();
-        let (old, new) = (self.whole.as_table()?, whole.as_table()?);
-        if !old.keys().eq(new.keys()) {
-            return None;
-        }
-        let says_same = |a: &Node, b: &Node| shares(a, b) || has_car && a.says(b);
-        let is_same = |key: &str| old.get(key).zip(new.get(key)).is_some_and(|(a, b)| says_same(&a.node, &b.node));
-        let changed: Vec<&str> = new.keys().map(String::as_str).filter(|key| !is_same(key)).collect();
-        let is_living = living::any(&self.root);
-        let is_laid = |key: &&str| is_living && ["muscles", "triggers"].contains(key);
-        let refer =
-            |key: &str| [old, new].into_iter().filter_map(|root| root.get(key)).any(|entry| refers(&entry.node));
-        // a preset of joints may change the body, and bring muscles
-        let preset = |of: &Table| of.get("joints")?.node.get("preset").map(|preset| preset.value.clone());
-        let is_other =
-            |key: &str| OTHERS.contains(&key) || key == "joints" && (is_living || preset(old) != preset(new));
-        let is_plain = |key: &&str| !(is_other(key) || refer(key) || is_laid(key));
-        if !changed.iter().all(is_plain) {
-            return None;
-        }
+        let unchecked = document.root.clone();
+        let changed = self.changed(&unchecked, has_car)?;
         if !check_parts(&mut document, schema(), &changed).is_empty() {
             return None;
         }
@@ -106,6 +88,28 @@ impl Ready {
         }
         ready.explicit = complete(ready.explicit);
         Some(ready)
+    }
+
+    /// Names of the sections that differ in another tree with its car expanded; none if one of them does not stand alone.
+    fn changed<'n>(&self, whole: &'n Node, has_car: bool) -> Option<Vec<&'n str>> {
+        let (old, new) = (self.whole.as_table()?, whole.as_table()?);
+        if !old.keys().eq(new.keys()) {
+            return None;
+        }
+        let says_same = |a: &Node, b: &Node| shares(a, b) || has_car && a.says(b);
+        let is_same = |key: &str| old.get(key).zip(new.get(key)).is_some_and(|(a, b)| says_same(&a.node, &b.node));
+        let changed: Vec<&str> = new.keys().map(String::as_str).filter(|key| !is_same(key)).collect();
+        let is_living = living::any(&self.root);
+        let refer =
+            |key: &str| [old, new].into_iter().filter_map(|root| root.get(key)).any(|entry| refers(&entry.node));
+        // a preset of joints may change the body, and bring muscles
+        let preset = |of: &Table| of.get("joints")?.node.get("preset").map(|preset| preset.value.clone());
+        let stands_alone = |key: &&str| match *key {
+            "joints" => !is_living && preset(old) == preset(new),
+            "muscles" | "triggers" => !is_living && !refer(key),
+            key => !OTHERS.contains(&key) && !refer(key),
+        };
+        changed.iter().all(stands_alone).then_some(changed)
     }
 
     /// Expands the joints anew, for the same body.
