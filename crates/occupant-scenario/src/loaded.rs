@@ -155,7 +155,7 @@ impl Loaded {
         let sources = &self.document.sources;
         let mut tables: Vec<(&str, &str)> = Vec::new();
         let surfaces = self.scenario.materials.values().filter_map(|material| material.file.as_deref());
-        for file in self.scenario.paths().into_iter().filter_map(|(_, path)| path.file()).chain(surfaces) {
+        for file in self.scenario.table_files().into_iter().map(|(_, file)| file).chain(surfaces) {
             if let (Some(id), true) = (sources.named(file), tables.iter().all(|(name, _)| *name != file)) {
                 tables.push((file, sources.text(id)));
             }
@@ -167,7 +167,7 @@ impl Loaded {
 /// Reads the CSV files at these paths, each once.
 fn read_tables(document: &mut Document, scenario: &Scenario, resolver: Resolver) -> Result<(), Diagnostics> {
     let mut problems = Diagnostics::new();
-    for (at, file) in scenario.paths().into_iter().filter_map(|(at, path)| Some((at, path.file()?))) {
+    for (at, file) in scenario.table_files() {
         if document.sources.named(file).is_some() {
             continue;
         }

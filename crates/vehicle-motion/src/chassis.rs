@@ -367,7 +367,7 @@ impl Chassis {
         let rolls = relative * lever;
         let slide = [ahead.dot(&velocity) - rolls, right.dot(&velocity)];
         let slides = (slide[0] * slide[0] + slide[1] * slide[1]).sqrt();
-        let zone = ground.zone(at.point_m.y);
+        let zone = ground.zone(at.point_m.x, at.point_m.y);
         let sideways = if slides > 1e-9 { slide[1] * slide[1] / (slides * slides) } else { 0.0 };
         let surface = zone.map_or(1.0, |zone| zone.friction * (1.0 + (zone.lateral - 1.0) * sideways));
         let most = tyre.friction_at(slides, load, surface) * load;

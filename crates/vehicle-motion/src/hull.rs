@@ -180,7 +180,7 @@ impl Hull {
     /// Least height of a sphere over the ground, m.
     fn over_m(&self, state: &State, ground: &Ground) -> f64 {
         let (at, axes) = (state.position_m(), *state.attitude().to_rotation_matrix().matrix());
-        if let Some((normal, point)) = ground.lone(at.y, self.reach_m) {
+        if let Some((normal, point)) = ground.lone(at.x, at.y, self.reach_m) {
             let (height, down) = (normal.dot(&(at - point)), axes.tr_mul(&normal));
             let over = |sphere: &Sphere| height + down.dot(&sphere.place_m) - sphere.radius_m;
             return self.spheres.iter().map(over).fold(f64::INFINITY, f64::min);
@@ -251,7 +251,8 @@ impl Hull {
             let arm_m = dip.centre_m - dip.normal * (dip.radius_m - 0.5 * dip.depth_m) - pose.at_m;
             let velocity = pose.velocity_m_s + pose.turning_rad_s.cross(&arm_m);
             let along = velocity - dip.normal * velocity.dot(&dip.normal);
-            let zone = ground.zone((pose.at_m + arm_m).y).map_or(1.0, |zone| zone.friction);
+            let place_m = pose.at_m + arm_m;
+            let zone = ground.zone(place_m.x, place_m.y).map_or(1.0, |zone| zone.friction);
             let speed = (along.norm_squared() + TURNS_M_S * TURNS_M_S).sqrt();
             let friction = dip.friction.unwrap_or(self.friction * zone);
             let force = dip.normal * load_n - along * (friction * load_n / speed);

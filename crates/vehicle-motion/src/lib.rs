@@ -42,7 +42,7 @@
 //! | [`car`] | the vehicle as data, checks |
 //! | [`presets`] | vehicles by class, and how far their numbers can be trusted |
 //! | [`body`] | outline, stiffness of the faces, spheres of the hull |
-//! | [`ground`] | plane, cross-section, curbs, zones of friction; contact of a wheel |
+//! | [`ground`] | cross-sections along an axis or a road with bends, grids of heights, curbs, zones of friction; contact of a wheel |
 //! | [`tyre`] | the law of slip and shear force |
 //! | [`driver`] | steering, brake and drive over time; a driver who follows a line; the reaction to a collision |
 //! | [`state`] | numbers of a vehicle's state, and sums of work |

@@ -50,7 +50,8 @@ fn mark(wheel: usize, run: &[Station], ground: &Ground) -> Mark {
         run.iter().map(|station| [station.wheels[wheel].contact_m.x, station.wheels[wheel].contact_m.y]).collect();
     let sum = |of: &dyn Fn(&Station) -> f64| run.iter().map(of).sum::<f64>();
     let [along, across] = [0, 1].map(|axis: usize| sum(&|station| station.wheels[wheel].slide_m_s[axis].abs()));
-    let furrows = points_m.iter().filter(|point| ground.zone(point[1]).is_some_and(|zone| zone.lateral > 1.0)).count();
+    let furrows =
+        points_m.iter().filter(|point| ground.zone(point[0], point[1]).is_some_and(|zone| zone.lateral > 1.0)).count();
     let kind = match () {
         () if 2 * furrows > points_m.len() && across > along => "furrow",
         () if across > along => "yaw",

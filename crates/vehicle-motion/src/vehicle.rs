@@ -166,7 +166,7 @@ impl Vehicle {
 impl Chassis {
     /// State at the start: on the ground, wheels rolling unless they stand.
     pub fn state_at(&self, start: &Start, ground: &Ground) -> State {
-        let normal = ground.normal(start.y_m);
+        let normal = ground.normal(start.x_m, start.y_m);
         // heading along the ground, z against its normal
         let (sine, cosine) = libm::sincos(start.yaw_rad);
         let heading = V3::new(cosine, sine, 0.0);

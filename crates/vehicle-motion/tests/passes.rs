@@ -83,6 +83,24 @@ fn two_passes_are_the_coupled_motion() {
     }
 }
 
+/// Passes with a massless person change nothing: the force of somebody of a billionth of a person leaves the drive as it
+/// was.
+#[test]
+fn a_massless_person_pushes_nothing() {
+    let (alone, deepest_m, peak_g) = drive(&car(0.0), None);
+    let (_, force) = person(&alone);
+    for people in [0.0, 1e-9] {
+        let [about_all, rest] = [scaled(&force, people), Table::constant(0.0)];
+        let components = [about_all, rest.clone(), rest.clone(), rest.clone(), rest.clone(), rest];
+        let (ride, deepest, peak) = drive(&car(0.0), Some(Wrench { about_m: V3::zeros(), components }));
+        let off_m = (ride.last().position_m - alone.last().position_m).norm();
+        assert!(
+            off_m < 1e-9 && (deepest - deepest_m).abs() < 1e-9 && (peak - peak_g).abs() < 1e-6,
+            "{people}: {off_m:e}"
+        );
+    }
+}
+
 fn scaled(table: &Table, factor: f64) -> Table {
     let times: Vec<f64> = table.corners_s().to_vec();
     let values = times.iter().map(|t| factor * table.at(*t)).collect();

@@ -53,7 +53,9 @@ pub(super) fn of(ride: &Ride, ground: &Ground, collisions: &[Collision]) -> Vec<
 
 /// Transitions of a wheel between zones.
 fn zones(stations: &[Station], ground: &Ground, wheel: usize, name: &str, events: &mut Vec<Event>) {
-    let zone = |station: &Station| ground.zone(station.wheels[wheel].contact_m.y).map(|zone| zone.name.as_str());
+    let zone = |station: &Station| {
+        ground.zone(station.wheels[wheel].contact_m.x, station.wheels[wheel].contact_m.y).map(|zone| zone.name.as_str())
+    };
     for pair in stations.windows(2) {
         let [before, after] = [zone(&pair[0]), zone(&pair[1])];
         if before != after {

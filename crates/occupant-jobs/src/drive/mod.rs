@@ -108,7 +108,7 @@ impl Figurable {
             pitch: greatest(&|station| station.state.yaw_pitch_roll_rad()[1]),
             slip: slips.map(|(slip, station)| (slip, station.time_s)).fold((0.0, 0.0), most),
             slope: greatest(&|station| {
-                let normal = drives.world.ground.normal(station.position_m.y);
+                let normal = drives.world.ground.normal(station.position_m.x, station.position_m.y);
                 normal.y / normal.z
             }),
         }

@@ -23,6 +23,8 @@ const TIMES: usize = 8;
 const PART_M: f64 = 0.05;
 /// Zones of friction are looked for along so many lines.
 const LINES: usize = 1000;
+/// Number of fields along a side in which lines of equal height are looked for.
+const FIELDS: usize = 60;
 /// Colours of the vehicles in order, repeated.
 const COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6d1f"];
 
@@ -158,7 +160,21 @@ fn ground(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
     let [x, y] = sheet.at(sheet.low);
     let [width, height] = sheet.size();
     svg.rect(x, y, width, height, "fill=\"#f1f1ef\"");
-    let zone = |right_m: &f64| drives.world.ground.zone(*right_m).map(|zone| zone.name.as_str());
+    let ground = &drives.world.ground;
+    if let Some(mesh) = ground.as_mesh() {
+        for zone in ground.zones() {
+            let [mut outline, mut back] = zone.right_m.map(|right_m| ground.line_at_m(right_m));
+            back.reverse();
+            outline.append(&mut back);
+            svg.polygon(&sheet.all(&outline), "fill=\"#e7dfc8\"");
+        }
+        for edge in mesh.edges_m() {
+            svg.polyline(&sheet.all(&edge), "fill=\"none\" stroke=\"#b3ab92\" stroke-dasharray=\"6 4\"");
+        }
+        contours(svg, sheet, drives);
+        return;
+    }
+    let zone = |right_m: &f64| ground.zone(0.0, *right_m).map(|zone| zone.name.as_str());
     let lines: Vec<f64> = (0..=LINES).map(|i| sheet.low[1] + height / sheet.scale * i as f64 / LINES as f64).collect();
     for strip in lines.chunk_by(|a, b| zone(a) == zone(b)) {
         let Some(name) = zone(&strip[0]) else { continue };
@@ -166,9 +182,9 @@ fn ground(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
         svg.rect(x, y, width, (strip[strip.len() - 1] - strip[0]) * sheet.scale, "fill=\"#e7dfc8\"");
         svg.text([x + 6.0, y + 14.0], name, &Text { size: 11.0, fill: "#7a6a3a", ..Text::default() });
     }
-    for [right_m, up_m] in drives.world.ground.corners_m().iter().copied() {
+    for [right_m, up_m] in ground.corners_m().iter().copied() {
         let is_shown = (sheet.low[1]..sheet.high[1]).contains(&right_m);
-        if is_shown && drives.world.ground.corners_m().iter().any(|corner| corner[1] != up_m) {
+        if is_shown && ground.corners_m().iter().any(|corner| corner[1] != up_m) {
             svg.segment(
                 sheet.at([left, right_m]),
                 sheet.at([right, right_m]),
@@ -177,6 +193,43 @@ fn ground(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
             let at = sheet.at([right, right_m]);
             let style = Text { size: 11.0, fill: "#7a6a3a", anchor: Anchor::End, ..Text::default() };
             svg.text([at[0] - 6.0, at[1] - 4.0], &format!("{up_m:+.1} m").replace('-', "−"), &style);
+        }
+    }
+}
+
+/// Lines of equal height, with labels where they begin.
+fn contours(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
+    let at = |i: usize, j: usize| {
+        let place = [(0, i), (1, j)]
+            .map(|(axis, k)| sheet.low[axis] + (sheet.high[axis] - sheet.low[axis]) * k as f64 / FIELDS as f64);
+        (place, drives.world.ground.height_m(place[0], place[1]))
+    };
+    let heights = || (0..=FIELDS).flat_map(|i| (0..=FIELDS).map(move |j| at(i, j).1));
+    let (low_m, high_m) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), h| (a.min(h), b.max(h)));
+    let step_m =
+        [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0].into_iter().find(|step| (high_m - low_m) / step <= 8.0);
+    let Some(step_m) = step_m.filter(|_| high_m - low_m > 0.02) else { return };
+    let levels = ((low_m / step_m).ceil() as i64)..=((high_m / step_m).floor() as i64);
+    for level_m in levels.map(|i| i as f64 * step_m) {
+        let mut label = None;
+        for cell in 0..FIELDS * FIELDS {
+            let (i, j) = (cell / FIELDS, cell % FIELDS);
+            for triangle in [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]] {
+                let crossing = |k: usize| {
+                    let ((a, from_m), (b, to_m)) = (triangle[k], triangle[(k + 1) % 3]);
+                    let share = (level_m - from_m) / (to_m - from_m);
+                    ((from_m < level_m) != (to_m < level_m)).then(|| [0, 1].map(|x| a[x] + share * (b[x] - a[x])))
+                };
+                let ends: Vec<[f64; 2]> = (0..3).filter_map(crossing).collect();
+                if let [from, to] = ends[..] {
+                    svg.segment(sheet.at(from), sheet.at(to), "stroke=\"#b3ab92\"");
+                    label = label.or(Some(from));
+                }
+            }
+        }
+        if let Some(at) = label.map(|at| sheet.at(at)) {
+            let style = Text { size: 11.0, fill: "#7a6a3a", ..Text::default() };
+            svg.text([at[0] + 6.0, at[1] - 4.0], &format!("{level_m:+.1} m").replace('-', "−"), &style);
         }
     }
 }

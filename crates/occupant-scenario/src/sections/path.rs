@@ -123,6 +123,13 @@ impl PathSection {
 }
 
 impl Scenario {
+    /// All CSV files it names but surfaces, with the positions of the sections that name them.
+    pub(crate) fn table_files(&self) -> Vec<(String, &str)> {
+        let grid = self.drive.as_ref().and_then(|drive| drive.ground.as_ref()?.grid.as_ref()?.file.as_deref());
+        let paths = self.paths().into_iter().filter_map(|(at, path)| Some((at, path.file()?)));
+        paths.chain(grid.map(|file| ("drive.ground.grid".to_owned(), file))).collect()
+    }
+
     /// All paths with their positions in the text.
     pub(crate) fn paths(&self) -> Vec<(String, &PathSection)> {
         let named = |key: &str, name: &str| with_key(&with_key(key, name), "path");

@@ -154,6 +154,86 @@ fn a_ditch_is_the_section_of_its_slopes() {
     assert!(!complaint(&short(&BRAKES.replace("friction = 0.8", both))).is_empty());
 }
 
+/// Ground along a line and from a grid is what the same cross-section along x is.
+#[test]
+fn a_line_and_a_grid_are_the_ground_they_describe() {
+    let ground = |keys: &str| driven(&short(&BRAKES.replace("friction = 0.8", keys))).world.ground.clone();
+    let ditch = "ditch = { edge = 3, foreslope = 4, depth = 2 }\ngrade = 0.02\n";
+    let section = ground(ditch);
+    let line = "line = { points = [[0, 0], [200, 0], [200, 200]], radius = 60 }\n";
+    let road = ground(&format!("{ditch}{line}zones = [{{ name = \"soil\", right = [3, 20], friction = 0.5 }}]"));
+    for (x, y) in [(-5.0, 1.0), (10.0, 5.0), (100.0, 12.0)] {
+        assert!((road.height_m(x, y) - section.height_m(x, y)).abs() < 1e-9, "{x} {y}");
+        assert_eq!(road.zone(x, y).is_some(), y >= 3.0);
+    }
+    // behind the bend the road runs along y, its right is at smaller x
+    assert!(road.zone(195.0, 150.0).is_some() && road.zone(205.0, 150.0).is_none());
+    let widening =
+        "sections = [\n{ at = 0, right = [-5, 5], height = [0, 0] },\n{ at = 10, right = [-5, 5], height = [1, 0] }]";
+    let widening = ground(widening);
+    assert!((widening.height_m(5.0, -5.0) - 0.5).abs() < 1e-9 && widening.height_m(20.0, -5.0) == 1.0);
+    let inline = ground("grid = { from = [0, -4], step = [2, 4], height = [[0, 0, 0], [0, \"10 cm\", 0]] }");
+    assert!((inline.height_m(1.0, 0.0) - 0.05).abs() < 1e-12 && (inline.height_m(1.0, 2.0) - 0.05).abs() < 0.026);
+}
+
+/// Heights come from a CSV file in any order and unit; what is missing, doubled or uneven is told.
+#[test]
+fn a_survey_is_read_from_a_file() {
+    let text = short(&BRAKES.replace("friction = 0.8", "grid.file = \"hill.csv\""));
+    let with = |csv: &str| {
+        let draft = Draft::read(&text, Format::Toml, "a.toml").unwrap();
+        draft.load(&|_| Ok(csv.as_bytes().to_vec())).and_then(|loaded| loaded.drives())
+    };
+    let sound = "x[m],y[m],height[cm]\n10,-1,0\n0,-1,0\n0,1,20\n10,1,20\n";
+    let drives = with(sound).unwrap().0.unwrap();
+    assert!((drives.world.ground.height_m(3.0, 0.0) - 0.1).abs() < 1e-12);
+    let cases = [
+        (sound.replace("10,1,20\n", ""), "3 points at 2 places of x and 2 of y"),
+        (sound.replace("0,1,20\n10", "0,-1,0\n10"), "twice"),
+        (format!("{sound}13,-1,0\n13,1,0\n"), "uneven steps"),
+        (sound.replace("height", "z"), "unknown column `z`"),
+        ("x[m],y[m],height[m]\n0,0,0\n".to_owned(), "at least 2 of each"),
+        (sound.replace("10,1,20", "10,1,x"), "`x`"),
+    ];
+    for (csv, expected) in cases {
+        let Err(problems) = with(&csv) else { panic!("{csv}") };
+        assert!(problems.to_string().contains(expected), "{csv}\n{problems}");
+    }
+    let draft = Draft::read(&text, Format::Toml, "a.toml").unwrap();
+    let problems = draft.load(&|_| Err("it is not there".to_owned())).unwrap_err().to_string();
+    assert!(problems.contains("hill.csv") && problems.contains("drive.ground.grid"), "{problems}");
+}
+
+#[test]
+fn mistakes_of_a_line_and_a_grid_are_told() {
+    let cases = [
+        ("line = { points = [[0, 0], [9, 0], [9, 9]] }", "no radius"),
+        ("line = { points = [[0, 0], [9, 0], [9, 9]], radius = 30 }", "smaller radius"),
+        ("line = { points = [[0, 0]] }", "at least two"),
+        (
+            "line = { points = [[0, 0], [99, 0], [99, 99]], radius = 6 }\nditch = { edge = 3, foreslope = 4, depth = 2 }",
+            "inside of a bend",
+        ),
+        (
+            "line = { points = [[0, 0], [9, 0]] }\ncurbs = [{ right = 3, height = 0.1 }]",
+            "cross-section along the x axis",
+        ),
+        ("sections = [{ at = 0, right = [0, 5], height = [0] }]", "2 distances and 1 heights"),
+        ("sections = [{ at = 0, right = [5, 0], height = [0, 0] }]", "not to the right"),
+        ("grid = { from = [0, 0], step = [1, 1], height = [[0, 0], [0]] }", "same length"),
+        ("grid = { from = [0, 0], step = [1, 1], height = [[0, 0]] }", "at least 2 by 2"),
+        ("grid = { from = [0, 0], step = [1, 0], height = [[0, 0], [0, 0]] }", "out of range"),
+        ("grid = { height = [[0, 0], [0, 0]] }", "from"),
+        ("grid = { from = [0, 0], step = [1, 1], height = [] }", "at least 2 by 2"),
+        ("grid = { from = [0, 0], step = [1, 1], height = [[0, 0], [0, 0]] }\ngrade = 0.1", "grade"),
+        ("grid = {}", "file"),
+    ];
+    for (keys, expected) in cases {
+        let text = complaint(&short(&BRAKES.replace("friction = 0.8", keys)));
+        assert!(text.contains(expected) && text.contains("drive.ground"), "{keys}\n{text}");
+    }
+}
+
 #[test]
 fn mistakes_are_told_with_their_places() {
     let cases = [

@@ -15,6 +15,8 @@ const LYING: f64 = 0.94;
 const FADES: f64 = 0.06;
 /// Distance, relative to the crown radius, at which a wheel considers planes before touching them.
 const SEEN: f64 = 0.1;
+/// Largest number of faces that half a wheel may cross.
+const MOST_FACES: usize = 1000;
 /// Largest slope relative to the wheel's upward direction that is cut exactly.
 const STEEPEST: f64 = 1e-3;
 
@@ -61,7 +63,7 @@ impl Ground {
     /// Contact of a wheel of the given free and crown radius with its centre at `centre_m` and the unit vector `axle` to its
     /// right, both in vehicle-space; none off the ground.
     pub fn footprint(&self, centre_m: V3, axle: V3, radius_m: f64, crown_m: f64) -> Option<Footprint> {
-        if let Some(plane) = self.lone_plane(centre_m.y, 2.0 * radius_m) {
+        if let Some(plane) = self.lone_face(centre_m.x, centre_m.y, 2.0 * radius_m) {
             return self.on_plane(plane, centre_m, axle, radius_m, crown_m);
         }
         let wheel = Tread { ground: self, radius_m, crown_m };
@@ -76,8 +78,8 @@ impl Ground {
 
     /// Contact with one plane: ρ less the height of the lowest point of the circle of radius r₀ − ρ.
     fn on_plane(&self, plane: usize, centre_m: V3, axle: V3, radius_m: f64, crown_m: f64) -> Option<Footprint> {
-        let normal = self.normals[plane];
-        let height_m = normal.dot(&(centre_m - self.point_m(plane)));
+        let normal = self.face_normal(plane);
+        let height_m = normal.dot(&(centre_m - self.face_point_m(plane)));
         let lean = normal.dot(&axle);
         let upright = (1.0 - lean * lean).max(0.0).sqrt();
         let depth_m = standing(lean) * (crown_m - (height_m - (radius_m - crown_m) * upright));
@@ -117,7 +119,7 @@ impl Tread<'_> {
         let disc = Disc { ground, centre_m, ahead: up.cross(&axle).normalize(), up };
         // a radius that no plane has a part in, so that nothing jumps where the centre passes a corner
         let first = disc.cut(crowned(radius_m, crown_m, axle.z) + SEEN * crown_m);
-        let under = ground.normals[first.plane].dot(&axle);
+        let under = ground.face_normal(first.plane).dot(&axle);
         let lean = if first.level > 0.0 { first.lean / first.level } else { under };
         if lean.abs() > LYING {
             return None;
@@ -185,25 +187,23 @@ impl Disc<'_> {
 
     /// Height of a plane over the centre in the wheel's plane, and its slope there.
     fn line(&self, plane: usize) -> (f64, f64) {
-        let normal = self.ground.normals[plane];
+        let normal = self.ground.face_normal(plane);
         let steep = normal.dot(&self.up).max(STEEPEST);
-        let to = self.ground.point_m(plane) - self.centre_m;
+        let to = self.ground.face_point_m(plane) - self.centre_m;
         (to.dot(&normal) / steep, -self.ahead.dot(&normal) / steep)
     }
 
     /// The plane that the downward line through the centre meets, and its height there.
     fn below(&self) -> (usize, f64) {
-        let mut plane = self.ground.plane_at(self.centre_m.y);
-        let last = self.ground.normals.len() - 1;
+        let (ground, centre) = (self.ground, &self.centre_m);
+        let mut plane = ground.face_at(centre.x, centre.y);
         for _ in 0..4 {
-            let right_m = self.centre_m.y + self.line(plane).0 * self.up.y;
-            let is_left = plane > 0 && right_m < self.ground.corners_m[plane][0];
-            let is_right = plane < last && right_m > self.ground.corners_m[plane + 1][0];
-            match (is_left, is_right) {
-                (true, _) => plane -= 1,
-                (_, true) => plane += 1,
-                _ => break,
+            let down_m = self.line(plane).0;
+            let met = ground.face_towards(plane, [centre.x + down_m * self.up.x, centre.y + down_m * self.up.y]);
+            if met == plane {
+                break;
             }
+            plane = met;
         }
         (plane, self.line(plane).0)
     }
@@ -211,16 +211,13 @@ impl Disc<'_> {
     /// Adds the pieces of ground from x = 0 to the rim of the disc, ahead (`forward` 1) or back (−1).
     fn walk(&self, radius_m: f64, mut plane: usize, start: f64, forward: f64, cut: &mut Cut) {
         let mut from = [0.0, start];
-        let last = self.ground.normals.len() - 1;
-        loop {
+        let (centre, up) = (&self.centre_m, &self.up);
+        for _ in 0..MOST_FACES {
             let (foot, slope) = self.line(plane);
-            // how far right one gets for each metre ahead
-            let rightward = self.ahead.y + slope * self.up.y;
-            let goes_right = rightward * forward > 0.0;
-            let is_outer = plane == if goes_right { last } else { 0 };
-            let corner = self.ground.corners_m[if goes_right { plane + 1 } else { plane }][0];
-            let base_m = self.centre_m.y + foot * self.up.y;
-            let x = if is_outer || rightward == 0.0 { f64::INFINITY * forward } else { (corner - base_m) / rightward };
+            // the way in plan for each metre ahead
+            let rate = [self.ahead.x + slope * up.x, self.ahead.y + slope * up.y];
+            let base_m = [centre.x + foot * up.x, centre.y + foot * up.y];
+            let (x, next) = self.ground.exit(plane, base_m, rate, forward).unwrap_or((f64::INFINITY * forward, plane));
             // never back: faces steeper than the wheel's upward direction are cut upright
             let x = if x * forward < from[0] * forward { from[0] } else { x };
             let ends = x * forward >= radius_m;
@@ -228,7 +225,7 @@ impl Disc<'_> {
             let to = [to_x, foot + slope * to_x];
             let piece = if forward > 0.0 { overlap(radius_m, from, to) } else { overlap(radius_m, to, from) };
             cut.overlap = cut.overlap.and(piece);
-            let normal = self.ground.normals[plane];
+            let normal = self.ground.face_normal(plane);
             let lean = normal.dot(&self.axle());
             let level = normal.dot(&self.up).max(STEEPEST);
             // the tread lies on what is level; the face of a curb pushes, but tilts no tread
@@ -241,9 +238,10 @@ impl Disc<'_> {
                 return;
             }
             // the next plane starts within the disc
-            cut.is_one_plane &= x * x + to[1] * to[1] > radius_m * radius_m && to[1] < 0.0;
+            let is_outside = x * x + to[1] * to[1] > radius_m * radius_m && to[1] < 0.0;
+            cut.is_one_plane &= is_outside || self.ground.face_normal(next) == normal;
             from = to;
-            plane = if goes_right { plane + 1 } else { plane - 1 };
+            plane = next;
         }
     }
 
@@ -267,7 +265,7 @@ mod tests {
     fn a_plane_gives_back_its_own_depth_and_normal() {
         for (cross_slope, grade) in [(0.0, 0.0), (0.25, 0.0), (-0.5, 0.1), (0.1, -0.3)] {
             let ground = Ground::plane(grade, cross_slope);
-            let normal = ground.normal(0.0);
+            let normal = ground.normal(0.0, 0.0);
             for roll in [-0.6, -0.1, 0.0, 0.3] {
                 for yaw in [0.0, 1e-9, 0.4, 1.57, -2.0] {
                     let axle = axle(roll, yaw);

@@ -1,25 +1,31 @@
-//! The ground: a cross-section that runs along the X axis, with a grade, curbs, and zones of friction.
+//! The ground: a cross-section along the X axis or along a road, or a grid of heights; with zones of friction.
 
 mod disc;
 mod footprint;
+mod mesh;
+mod road;
+mod section;
 
 pub use footprint::Footprint;
+pub use mesh::Mesh;
+pub use road::{Road, Station};
 
 use crate::V3;
 use libm::tan;
+use section::Section;
 
-/// A cross-section extruded along the X axis, with a grade: planes that meet at corners.
+/// The ground. Its heights are positive up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ground {
-    /// Corners from left to right: distance right of the X axis and height there at X = 0, m. The outer planes
-    /// continue.
-    corners_m: Vec<[f64; 2]>,
-    /// Upward normals of the planes between them, vehicle-space.
-    normals: Vec<V3>,
-    /// Rise along X.
-    grade: f64,
-    has_steep: bool,
+    shape: Shape,
     zones: Vec<Zone>,
+}
+
+/// Faces that meet at edges.
+#[derive(Clone, Debug, PartialEq)]
+enum Shape {
+    Section(Section),
+    Mesh(Box<Mesh>),
 }
 
 /// A strip of ground with properties of its own.
@@ -27,7 +33,7 @@ pub struct Ground {
 pub struct Zone {
     /// Its name.
     pub name: String,
-    /// From and to, right of the X axis, m.
+    /// From and to, right of the X axis or of the road's line, m.
     pub right_m: [f64; 2],
     /// Factor on the friction of tyres.
     pub friction: f64,
@@ -76,6 +82,25 @@ pub enum GroundError {
         /// The angle of its face, rad.
         face_rad: f64,
     },
+    /// Curbs on a ground that is no cross-section along the X axis.
+    #[error("curbs need a cross-section along the x axis")]
+    CurbsOnMesh,
+    /// A grid without extent, or with heights that do not fill it.
+    #[error("a grid of {rows} by {columns} heights with {heights} numbers; expected at least 2 by 2, and all of them")]
+    Grid {
+        /// Number of heights along X.
+        rows: usize,
+        /// Number of heights along Y.
+        columns: usize,
+        /// Number of heights given.
+        heights: usize,
+    },
+    /// A distance between heights that is not above 0.
+    #[error("a grid with {0} m between its heights; expected more than 0")]
+    Spacing(f64),
+    /// A road that cannot be laid out.
+    #[error("{0}")]
+    Road(String),
     /// A zone with a factor below zero or without breadth.
     #[error("zone `{0}` needs a friction and a lateral factor of at least 0, and an end right of its start")]
     Zone(String),
@@ -115,35 +140,49 @@ impl Ground {
         Ok(Ground::of(corners_m, grade))
     }
 
+    /// Faces of a grid of heights or along a road.
+    pub fn mesh(mesh: Mesh) -> Self {
+        Ground { shape: Shape::Mesh(Box::new(mesh)), zones: Vec::new() }
+    }
+
+    fn of(corners_m: Vec<[f64; 2]>, grade: f64) -> Self {
+        Ground { shape: Shape::Section(Section::of(corners_m, grade)), zones: Vec::new() }
+    }
+
     /// This ground with curbs, each of which raises everything to its right.
     ///
     /// # Errors
     /// A face that is not between level and upright, or curbs whose faces overlap.
     pub fn with_curbs(&self, curbs: &[Curb]) -> Result<Self, GroundError> {
-        let mut ground = self.clone();
+        if curbs.is_empty() {
+            return Ok(self.clone());
+        }
+        let Shape::Section(section) = &self.shape else { return Err(GroundError::CurbsOnMesh) };
+        let mut section = section.clone();
         for &Curb { right_m, height_m, face_rad } in curbs {
             let breadth_m = height_m.abs() / tan(face_rad);
             let upright = face_rad > 0.0 && face_rad < core::f64::consts::FRAC_PI_2;
             if !(upright && height_m.is_finite() && right_m.is_finite() && breadth_m > 0.0) {
                 return Err(GroundError::Curb { right_m, height_m, face_rad });
             }
-            let foot_m = [right_m, ground.section_height_m(right_m)];
-            let top_m = [right_m + breadth_m, ground.section_height_m(right_m + breadth_m) + height_m];
-            let left = ground.corners_m.iter().copied().filter(|corner| corner[0] < right_m);
-            let right = ground.corners_m.iter().filter(|corner| corner[0] > top_m[0]);
+            let foot_m = [right_m, section.section_height_m(right_m)];
+            let top_m = [right_m + breadth_m, section.section_height_m(right_m + breadth_m) + height_m];
+            let left = section.corners_m.iter().copied().filter(|corner| corner[0] < right_m);
+            let right = section.corners_m.iter().filter(|corner| corner[0] > top_m[0]);
             let lifted = right.map(|corner| [corner[0], corner[1] + height_m]);
             let mut corners_m: Vec<[f64; 2]> = left.chain([foot_m, top_m]).chain(lifted).collect();
             // the outer planes keep their slopes
             if corners_m[0] == foot_m {
-                corners_m.insert(0, [right_m - 1.0, ground.section_height_m(right_m - 1.0)]);
+                corners_m.insert(0, [right_m - 1.0, section.section_height_m(right_m - 1.0)]);
             }
             if corners_m[corners_m.len() - 1] == top_m {
                 let beyond_m = top_m[0] + 1.0;
-                corners_m.push([beyond_m, ground.section_height_m(beyond_m) + height_m]);
+                corners_m.push([beyond_m, section.section_height_m(beyond_m) + height_m]);
             }
-            ground = Ground { zones: ground.zones, ..Ground::section(corners_m, ground.grade)? };
+            let Shape::Section(raised) = Ground::section(corners_m, section.grade)?.shape else { break };
+            section = raised;
         }
-        Ok(ground)
+        Ok(Ground { shape: Shape::Section(section), zones: self.zones.clone() })
     }
 
     /// This ground with zones; of those that hold a point the last counts.
@@ -162,146 +201,149 @@ impl Ground {
         Ok(self)
     }
 
-    fn of(corners_m: Vec<[f64; 2]>, grade: f64) -> Self {
-        let normals = corners_m.windows(2).map(|pair| {
-            let cross_slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
-            V3::new(-grade, -cross_slope, -1.0).normalize()
-        });
-        let normals: Vec<V3> = normals.collect();
-        let has_steep = normals.iter().any(|normal| normal.y.abs() > -normal.z);
-        Ground { normals, corners_m, grade, has_steep, zones: Vec::new() }
-    }
-
-    /// Number of the plane at a distance right of the X axis.
-    fn plane_at(&self, right_m: f64) -> usize {
-        let inner = &self.corners_m[1..self.corners_m.len() - 1];
-        inner.partition_point(|corner| corner[0] <= right_m)
-    }
-
-    /// The plane at a distance right of the X axis, if it extends by a distance to both sides.
-    pub(crate) fn lone_plane(&self, right_m: f64, way_m: f64) -> Option<usize> {
-        let plane = self.plane_at(right_m);
-        let last = self.normals.len() - 1;
-        let is_alone = (plane == 0 || self.corners_m[plane][0] < right_m - way_m)
-            && (plane == last || self.corners_m[plane + 1][0] > right_m + way_m);
-        is_alone.then_some(plane)
-    }
-
-    /// A point of a plane, vehicle-space, m.
-    fn point_m(&self, plane: usize) -> V3 {
-        let [right_m, height_m] = self.corners_m[plane];
-        V3::new(0.0, right_m, -height_m)
-    }
-
-    fn section_height_m(&self, right_m: f64) -> f64 {
-        let plane = self.plane_at(right_m);
-        let [from_m, to_m] = [self.corners_m[plane], self.corners_m[plane + 1]];
-        from_m[1] + (to_m[1] - from_m[1]) * (right_m - from_m[0]) / (to_m[0] - from_m[0])
-    }
-
     /// Corners of the cross-section from left to right: right of the X axis and height at X = 0, m. The outer planes
-    /// continue.
+    /// continue. None of a grid and of a road.
     pub fn corners_m(&self) -> &[[f64; 2]] {
-        &self.corners_m
+        match &self.shape {
+            Shape::Section(section) => &section.corners_m,
+            Shape::Mesh(_) => &[],
+        }
+    }
+
+    /// The faces of a grid or a road; none of a cross-section along the X axis.
+    pub fn as_mesh(&self) -> Option<&Mesh> {
+        match &self.shape {
+            Shape::Section(_) => None,
+            Shape::Mesh(mesh) => Some(mesh),
+        }
     }
 
     /// Height at a place, m.
     pub fn height_m(&self, x_m: f64, y_m: f64) -> f64 {
-        self.section_height_m(y_m) + self.grade * x_m
+        match &self.shape {
+            Shape::Section(section) => section.height_m(x_m, y_m),
+            Shape::Mesh(mesh) => mesh.height_m(x_m, y_m),
+        }
     }
 
-    /// Upward normal at a distance right of the X axis, vehicle-space.
-    pub fn normal(&self, right_m: f64) -> V3 {
-        self.normals[self.plane_at(right_m)]
+    /// Upward normal at a place, vehicle-space.
+    pub fn normal(&self, x_m: f64, y_m: f64) -> V3 {
+        self.face_normal(self.face_at(x_m, y_m))
     }
 
-    /// Normal and a point of the plane at a distance right of the X axis, if it continues to both sides.
-    pub(crate) fn lone(&self, right_m: f64, way_m: f64) -> Option<(V3, V3)> {
-        self.lone_plane(right_m, way_m).map(|plane| (self.normals[plane], self.point_m(plane)))
+    /// Number of the face at a place.
+    fn face_at(&self, x_m: f64, y_m: f64) -> usize {
+        match &self.shape {
+            Shape::Section(section) => section.plane_at(y_m),
+            Shape::Mesh(mesh) => mesh.face_at(x_m, y_m),
+        }
     }
 
-    /// Whether some face is steeper than 45°.
+    /// The face at a place in plan, as far as one step from another face leads.
+    fn face_towards(&self, face: usize, at_m: [f64; 2]) -> usize {
+        match &self.shape {
+            Shape::Section(section) => section.plane_towards(face, at_m[1]),
+            Shape::Mesh(mesh) => mesh.face_at(at_m[0], at_m[1]),
+        }
+    }
+
+    /// Upward normal of a face, vehicle-space.
+    #[inline]
+    fn face_normal(&self, face: usize) -> V3 {
+        match &self.shape {
+            Shape::Section(section) => section.normals[face],
+            Shape::Mesh(mesh) => mesh.normals[face],
+        }
+    }
+
+    /// A point of a face, vehicle-space, m.
+    #[inline]
+    fn face_point_m(&self, face: usize) -> V3 {
+        match &self.shape {
+            Shape::Section(section) => section.point_m(face),
+            Shape::Mesh(mesh) => mesh.point_m(face),
+        }
+    }
+
+    /// The face at a place, if it extends by a distance to all sides.
+    fn lone_face(&self, x_m: f64, y_m: f64, way_m: f64) -> Option<usize> {
+        match &self.shape {
+            Shape::Section(section) => section.lone_plane(y_m, way_m),
+            Shape::Mesh(mesh) => mesh.lone_face(x_m, y_m, way_m),
+        }
+    }
+
+    /// Where a straight way in plan, from `base_m` by `rate` per length, leaves a face, and the face beyond; none if it
+    /// does not. `forward` is 1 ahead and −1 back.
+    #[inline]
+    fn exit(&self, face: usize, base_m: [f64; 2], rate: [f64; 2], forward: f64) -> Option<(f64, usize)> {
+        match &self.shape {
+            Shape::Section(section) => section.exit(face, base_m[1], rate[1], forward),
+            Shape::Mesh(mesh) => mesh.exit(face, base_m, rate, forward),
+        }
+    }
+
+    /// Normal and a point of the face at a place, if it extends by a distance to all sides.
+    pub(crate) fn lone(&self, x_m: f64, y_m: f64, way_m: f64) -> Option<(V3, V3)> {
+        let face = self.lone_face(x_m, y_m, way_m)?;
+        Some((self.face_normal(face), self.face_point_m(face)))
+    }
+
+    /// Whether the edges of wheels meet some face steeper than 45°: of a cross-section along the X axis alone.
     pub(crate) fn has_steep(&self) -> bool {
-        self.has_steep
-    }
-
-    /// Pieces within `far_m` of a distance right of the X axis.
-    fn pieces(&self, right_m: f64, far_m: f64) -> core::ops::RangeInclusive<usize> {
-        self.plane_at(right_m - far_m)..=self.plane_at(right_m + far_m)
-    }
-
-    /// A piece seen along the extrusion: its ends, right and down across the grade, m.
-    fn seen(&self, piece: usize) -> [[f64; 2]; 2] {
-        let slant = (1.0 + self.grade * self.grade).sqrt();
-        [0, 1].map(|j| {
-            let [right_m, height_m] = self.corners_m[piece + j];
-            [right_m, -height_m / slant]
-        })
+        matches!(&self.shape, Shape::Section(section) if section.has_steep)
     }
 
     /// Distance of a point to the ground, m, negative below it, and the direction away from the ground, vehicle-space.
-    /// Convex corners are rounded.
+    /// Convex edges are rounded.
     pub fn distance(&self, point_m: &V3) -> (f64, V3) {
-        let plane = self.plane_at(point_m.y);
-        let normal = self.normals[plane];
-        let over_m = normal.dot(&(point_m - self.point_m(plane)));
-        if over_m <= 0.0 || over_m > 1.0 {
-            return (over_m, normal);
+        match &self.shape {
+            Shape::Section(section) => section.distance(point_m),
+            Shape::Mesh(mesh) => mesh.distance(point_m),
         }
-        let slant = (1.0 + self.grade * self.grade).sqrt();
-        let across = V3::new(self.grade / slant, 0.0, 1.0 / slant);
-        let (right_m, down_m) = (point_m.y, point_m.dot(&across));
-        let (mut least, mut away) = (over_m, [0.0; 2]);
-        let last = self.normals.len() - 1;
-        for piece in self.pieces(right_m, over_m).filter(|piece| *piece != plane || last == 0) {
-            let [from, to] = self.seen(piece);
-            let way = [to[0] - from[0], to[1] - from[1]];
-            let to_point = [right_m - from[0], down_m - from[1]];
-            let share = (to_point[0] * way[0] + to_point[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
-            let share = share.clamp(0.0, 1.0);
-            let off = [to_point[0] - share * way[0], to_point[1] - share * way[1]];
-            let far = off[0].hypot(off[1]);
-            if far < least {
-                (least, away) = (far, off);
-            }
-        }
-        // the foot of the plane's own normal may lie beyond its corner
-        if least == over_m { (over_m, normal) } else { (least, (V3::y() * away[0] + across * away[1]) / least) }
     }
 
     /// Calls for each face beside an axle that a sphere penetrates: its number, depth, m, normal, and weight, from 0
-    /// where the normal is at 53° to the axle to 1 at 37°. The upper edge of a face is rounded.
-    pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3, mut with: impl FnMut(usize, f64, V3, f64)) {
-        let slant = (1.0 + self.grade * self.grade).sqrt();
-        let across = V3::new(self.grade / slant, 0.0, 1.0 / slant);
-        let point = [centre_m.y, centre_m.dot(&across)];
-        for piece in self.pieces(centre_m.y, 0.5) {
-            let normal = self.normals[piece];
-            let counts = ((normal.dot(axle).abs() - 0.6) / 0.2).clamp(0.0, 1.0);
-            if counts == 0.0 {
-                continue;
-            }
-            let [from, to] = self.seen(piece);
-            let (top, foot) = if from[1] < to[1] { (from, to) } else { (to, from) };
-            let up = [top[0] - foot[0], top[1] - foot[1]];
-            let off = [point[0] - top[0], point[1] - top[1]];
-            let (depth_m, normal) = if off[0] * up[0] + off[1] * up[1] > 0.0 {
-                let far_m = off[0].hypot(off[1]);
-                (radius_m - far_m, (V3::y() * off[0] + across * off[1]) / far_m.max(1e-12))
-            } else {
-                (radius_m - normal.dot(&(centre_m - self.point_m(piece))), normal)
-            };
-            if depth_m < 0.5 {
-                with(piece, depth_m, normal, counts);
-            }
+    /// where the normal is at 53° to the axle to 1 at 37°.
+    pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3, with: impl FnMut(usize, f64, V3, f64)) {
+        if let Shape::Section(section) = &self.shape {
+            section.beside(centre_m, radius_m, axle, with);
         }
     }
 
-    /// The zone at a distance right of the X axis.
-    pub fn zone(&self, right_m: f64) -> Option<&Zone> {
+    /// The zone at a place.
+    pub fn zone(&self, x_m: f64, y_m: f64) -> Option<&Zone> {
+        if self.zones.is_empty() {
+            return None;
+        }
+        let right_m = self.offset_m(x_m, y_m);
         self.zones.iter().rev().find(|zone| (zone.right_m[0]..=zone.right_m[1]).contains(&right_m))
     }
+
+    /// All zones, in the order in which the last counts.
+    pub fn zones(&self) -> &[Zone] {
+        &self.zones
+    }
+
+    /// Distance of a place right of the X axis, or of the road's line, m.
+    pub fn offset_m(&self, x_m: f64, y_m: f64) -> f64 {
+        match &self.shape {
+            Shape::Section(_) => y_m,
+            Shape::Mesh(mesh) => mesh.offset_m(x_m, y_m),
+        }
+    }
+
+    /// The line at a distance right of the X axis, or of the road's line, in plan: X and Y, m.
+    pub fn line_at_m(&self, right_m: f64) -> Vec<[f64; 2]> {
+        match &self.shape {
+            Shape::Section(_) => vec![[-FAR_M, right_m], [FAR_M, right_m]],
+            Shape::Mesh(mesh) => mesh.line_at_m(right_m),
+        }
+    }
 }
+
+/// How far the ground goes on, m.
+const FAR_M: f64 = 1e4;
 
 #[cfg(test)]
 mod tests {

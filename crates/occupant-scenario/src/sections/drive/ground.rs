@@ -2,21 +2,22 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vehicle_motion::ground::{Curb, Ground, GroundError, Zone};
+use vehicle_motion::ground::{Curb, Ground, Zone};
 
 use super::super::builder::Builder;
 use super::super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::super::{Angle, Length, Ratio};
+use super::survey::{self, GridSection, LineSection, StationSection};
 use placed_text::{Problem, with_key};
 
 /// The ground that vehicles drive on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-at-most-one" = [["section", "ditch", "cross_slope"]]))]
+#[schemars(extend("x-at-most-one" = [["section", "sections", "ditch", "cross_slope", "grid"], ["grid", "line"], ["grid", "curbs"], ["grid", "grade"]]))]
 pub(crate) struct RoadSection {
     /// Tyre friction for a tyre grip of 1; 0.76 if absent, dry asphalt (0.64 to 0.88 in 95 % of tests).
     pub(crate) friction: Option<Ratio<POSITIVE>>,
-    /// Grade: rise along x; 0 if absent.
+    /// Grade: rise along x, or along the line; 0 if absent.
     pub(crate) grade: Option<Ratio>,
     /// Cross slope of a plane: rise to the right, such as -0.02; 0 if absent.
     pub(crate) cross_slope: Option<Ratio>,
@@ -24,10 +25,17 @@ pub(crate) struct RoadSection {
     pub(crate) section: Option<CrossSection>,
     /// A ditch beside the road by its slopes, instead of `section`.
     pub(crate) ditch: Option<DitchSection>,
+    /// Line in plan that the cross-section follows, instead of the x axis: `right` counts from it.
+    pub(crate) line: Option<LineSection>,
+    /// Cross-sections at places along the line, instead of `section`; the ground changes linearly between them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) sections: Vec<StationSection>,
+    /// Heights on a regular grid, instead of a cross-section.
+    pub(crate) grid: Option<GridSection>,
     /// Curbs along x. Each raises the ground to its right.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) curbs: Vec<CurbSection>,
-    /// Strips along x with their own friction. Where strips overlap, the last one counts.
+    /// Strips along x, or along the line, with their own friction. Where strips overlap, the last one counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) zones: Vec<ZoneSection>,
 }
@@ -128,44 +136,8 @@ pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground,
     let s = section.unwrap_or(&none);
     let friction = si_or(&s.friction, DRY_ASPHALT);
     let grade = si_or(&s.grade, 0.0);
-    let (mut ground, mut refused) = (Ground::plane(grade, si_or(&s.cross_slope, 0.0)), Vec::new());
-    if let Some(section) = &s.section {
-        let at = with_key(AT, "section");
-        if section.right.len() != section.height.len() {
-            let found = format!("{} distances and {} heights", section.right.len(), section.height.len());
-            b.error(&at, found, "a height for each distance");
-            return (ground, friction);
-        }
-        let corners = section.right.iter().zip(&section.height).map(|(right, height)| [right.si(), height.si()]);
-        match Ground::section(corners.collect(), grade) {
-            Ok(own) => ground = own,
-            Err(GroundError::Order { number, .. }) => {
-                let last = format!("{at}.right[{}]", number - 1);
-                let found = format!("corner {number} is not to the right of the previous one");
-                b.error(&last, found, "distances that rise from left to right");
-            }
-            Err(error) => refused.push((at, error)),
-        }
-    }
-    if let Some(ditch) = &s.ditch {
-        let slopes = [("foreslope", Some(&ditch.foreslope)), ("backslope", ditch.backslope.as_ref())];
-        for (key, slope) in slopes.into_iter().filter_map(|(key, slope)| Some((key, slope?.si()))) {
-            if slope < STEEPEST {
-                let found = format!(
-                    "{slope} m of length for 1 m of height, a slope of {:.0}°",
-                    (1.0 / slope).atan().to_degrees()
-                );
-                let hint = format!("horizontal length per unit of height: 1V:4H and 25 % are both `{key} = 4`");
-                let expected = format!("{STEEPEST} or more");
-                let place = with_key(&with_key(AT, "ditch"), key);
-                b.report(Problem::warning(&place, found, expected).with_hint(Some(hint)));
-            }
-        }
-        match Ground::section(ditch.corners_m(), grade) {
-            Ok(own) => ground = own,
-            Err(error) => refused.push((with_key(AT, "ditch"), error)),
-        }
-    }
+    let mut refused = Vec::new();
+    let Some(mut ground) = bare(b, s, grade) else { return (Ground::level(), friction) };
     let curb = |c: &CurbSection| Curb {
         right_m: c.right.si(),
         height_m: c.height.si(),
@@ -196,4 +168,47 @@ pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground,
         b.error(&at, error.to_string(), "ground that a wheel can stand on");
     }
     (ground, friction)
+}
+
+/// The ground without curbs and zones; none after a mistake.
+fn bare(b: &mut Builder, s: &RoadSection, grade: f64) -> Option<Ground> {
+    if let Some(grid) = &s.grid {
+        return survey::grid(b, &with_key(AT, "grid"), grid);
+    }
+    let corners_m = match (&s.section, &s.ditch) {
+        (Some(section), _) => Some(survey::corners_m(b, &with_key(AT, "section"), &section.right, &section.height)?),
+        (_, Some(ditch)) => {
+            warn_of_steep(b, ditch);
+            Some(ditch.corners_m())
+        }
+        _ => None,
+    };
+    let cross_slope = si_or(&s.cross_slope, 0.0);
+    if s.line.is_some() || !s.sections.is_empty() {
+        let plane = || [-LEVEL_M, LEVEL_M].map(|right_m| [right_m, right_m * cross_slope]).into();
+        return survey::road(b, AT, s, corners_m.unwrap_or_else(plane));
+    }
+    let Some(corners_m) = corners_m else { return Some(Ground::plane(grade, cross_slope)) };
+    match Ground::section(corners_m, grade) {
+        Ok(ground) => Some(ground),
+        Err(error) => {
+            let key = if s.section.is_some() { "section" } else { "ditch" };
+            b.error(&with_key(AT, key), error.to_string(), "ground that a wheel can stand on");
+            None
+        }
+    }
+}
+
+fn warn_of_steep(b: &mut Builder, ditch: &DitchSection) {
+    let slopes = [("foreslope", Some(&ditch.foreslope)), ("backslope", ditch.backslope.as_ref())];
+    for (key, slope) in slopes.into_iter().filter_map(|(key, slope)| Some((key, slope?.si()))) {
+        if slope < STEEPEST {
+            let degrees = (1.0 / slope).atan().to_degrees();
+            let found = format!("{slope} m of length for 1 m of height, a slope of {degrees:.0}°");
+            let hint = format!("horizontal length per unit of height: 1V:4H and 25 % are both `{key} = 4`");
+            let expected = format!("{STEEPEST} or more");
+            let place = with_key(&with_key(AT, "ditch"), key);
+            b.report(Problem::warning(&place, found, expected).with_hint(Some(hint)));
+        }
+    }
 }

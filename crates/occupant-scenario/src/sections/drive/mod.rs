@@ -10,6 +10,7 @@ mod passes;
 mod people;
 mod scenery;
 mod standing;
+mod survey;
 mod vehicle;
 
 use std::sync::Arc;
@@ -347,7 +348,7 @@ fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64, are_peopl
     if load_kg > 0.1 * mass_kg {
         let found = format!("a fixed load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg");
         let expected = if are_people {
-            "at most a tenth of its mass, or drive.passes = 2: heavier people move relative to the vehicle and push it"
+            "at most a tenth of its mass, or drive.passes = 3: heavier people move relative to the vehicle and push it"
         } else {
             "at most a tenth of its mass: heavier cargo moves relative to the vehicle and pushes it"
         };

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Point3, Vector3};
+use vehicle_motion::ground::Mesh;
 use vehicle_motion::marks::marks;
 
 use super::super::Scenario;
@@ -18,6 +19,9 @@ pub type Polygons = Vec<Vec<Point3<f64>>>;
 const BEYOND_M: f64 = 12.0;
 /// Number of corners of a wheel.
 const ROUND: usize = 24;
+/// Largest number of triangles of the ground that are drawn, and number of squares along a side that replace more.
+const MOST_FACES: usize = 4000;
+const SQUARES: usize = 40;
 /// Width of a tyre mark, and its height above the ground, m.
 const TREAD_M: f64 = 0.16;
 const OVER_M: f64 = 0.01;
@@ -68,12 +72,15 @@ pub(super) fn on_ground(drives: &Drives, x_m: f64, right_m: f64, over_m: f64) ->
     Point3::new(x_m, -right_m, drives.world.ground.height_m(x_m, right_m) + over_m)
 }
 
-/// The planes of the cross-section along the drive.
+/// The faces of the ground along the drive.
 fn road(drives: &Drives) -> Polygons {
     let places = || drives.outcome.rides.iter().flat_map(|ride| ride.stations()).map(|station| station.position_m);
     let least = |axis: usize| places().map(|p| p[axis]).fold(f64::INFINITY, f64::min) - BEYOND_M;
     let most = |axis: usize| places().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max) + BEYOND_M;
     let ([from_m, to_m], [left_m, right_m]) = ([least(0), most(0)], [least(1), most(1)]);
+    if let Some(mesh) = drives.world.ground.as_mesh() {
+        return faces(drives, mesh, [from_m, left_m], [to_m, right_m]);
+    }
     let corners = drives.world.ground.corners_m();
     let last = corners.len() - 2;
     let plane = |(i, pair): (usize, &[[f64; 2]])| {
@@ -84,6 +91,46 @@ fn road(drives: &Drives) -> Polygons {
         (one < other).then(|| vec![corner(from_m, one), corner(from_m, other), corner(to_m, other), corner(to_m, one)])
     };
     corners.windows(2).enumerate().filter_map(plane).collect()
+}
+
+/// The triangles of a mesh within a rectangle; of many, squares at equal distances instead.
+fn faces(drives: &Drives, mesh: &Mesh, low_m: [f64; 2], high_m: [f64; 2]) -> Polygons {
+    let cut = |face: usize| {
+        let corners = mesh.face_m(face).map(|corner| Point3::new(corner.x, -corner.y, -corner.z));
+        // space axes: y to the left
+        let sides = [(0, low_m[0], 1.0), (0, high_m[0], -1.0), (1, -high_m[1], 1.0), (1, -low_m[1], -1.0)];
+        let part = sides.iter().fold(corners.to_vec(), |polygon, side| clipped(&polygon, *side));
+        (part.len() > 2).then_some(part)
+    };
+    let shown: Polygons = (0..mesh.faces()).filter_map(cut).take(MOST_FACES + 1).collect();
+    if shown.len() <= MOST_FACES {
+        return shown;
+    }
+    let at = |i: usize, j: usize| {
+        let place = |axis: usize, k: usize| low_m[axis] + (high_m[axis] - low_m[axis]) * k as f64 / SQUARES as f64;
+        on_ground(drives, place(0, i), place(1, j), 0.0)
+    };
+    let square = |i: usize, j: usize| {
+        [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]].map(Vec::from)
+    };
+    (0..SQUARES).flat_map(|i| (0..SQUARES).flat_map(move |j| square(i, j))).collect()
+}
+
+/// The part of a convex polygon on one side of a plane across an axis.
+fn clipped(polygon: &[Point3<f64>], (axis, at_m, sign): (usize, f64, f64)) -> Vec<Point3<f64>> {
+    let inside = |point: &Point3<f64>| sign * (point[axis] - at_m);
+    let mut kept = Vec::new();
+    for (i, to) in polygon.iter().enumerate() {
+        let from = &polygon[(i + polygon.len() - 1) % polygon.len()];
+        let (before, after) = (inside(from), inside(to));
+        if before * after < 0.0 {
+            kept.push(from + (to - from) * (before / (before - after)));
+        }
+        if after >= 0.0 {
+            kept.push(*to);
+        }
+    }
+    kept
 }
 
 /// Tyre marks as strips.
