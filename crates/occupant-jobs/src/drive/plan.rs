@@ -171,7 +171,9 @@ fn ground(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
         for edge in mesh.edges_m() {
             svg.polyline(&sheet.all(&edge), "fill=\"none\" stroke=\"#b3ab92\" stroke-dasharray=\"6 4\"");
         }
-        contours(svg, sheet, drives);
+        if mesh.edges_m().is_empty() {
+            contours(svg, sheet, drives);
+        }
         return;
     }
     let zone = |right_m: &f64| ground.zone(0.0, *right_m).map(|zone| zone.name.as_str());
@@ -209,8 +211,9 @@ fn contours(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
     let step_m =
         [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0].into_iter().find(|step| (high_m - low_m) / step <= 8.0);
     let Some(step_m) = step_m.filter(|_| high_m - low_m > 0.02) else { return };
-    let levels = ((low_m / step_m).ceil() as i64)..=((high_m / step_m).floor() as i64);
-    for level_m in levels.map(|i| i as f64 * step_m) {
+    // between round heights, at which ground is often level
+    let levels = ((low_m / step_m - 0.5).ceil() as i64)..=((high_m / step_m - 0.5).floor() as i64);
+    for level_m in levels.map(|i| (i as f64 + 0.5) * step_m) {
         let mut label = None;
         for cell in 0..FIELDS * FIELDS {
             let (i, j) = (cell / FIELDS, cell % FIELDS);
@@ -229,7 +232,7 @@ fn contours(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
         }
         if let Some(at) = label.map(|at| sheet.at(at)) {
             let style = Text { size: 11.0, fill: "#7a6a3a", ..Text::default() };
-            svg.text([at[0] + 6.0, at[1] - 4.0], &format!("{level_m:+.1} m").replace('-', "−"), &style);
+            svg.text([at[0] + 6.0, at[1] - 4.0], &format!("{level_m:+.2} m").replace('-', "−"), &style);
         }
     }
 }

@@ -13,6 +13,9 @@ const HIGH_M: f64 = 1.0;
 /// Rows of a road that are skipped together when a place is looked for.
 const BLOCK: usize = 16;
 
+/// Number of rows of a bend that a drawing takes together.
+const ROWS_DRAWN: usize = 5;
+
 /// Triangles that make the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
@@ -54,9 +57,11 @@ impl Row {
     }
 }
 
-/// Extent of a block of cells in plan: least and largest X and Y, m.
+/// Extent of a block of rows in plan: least and largest X and Y of its cells, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Reach {
+    /// The first row, and the row that ends the last cell.
+    rows: [usize; 2],
     low_m: [f64; 2],
     high_m: [f64; 2],
 }
@@ -102,13 +107,16 @@ impl Mesh {
     pub(super) fn along(rows: Vec<Row>, corners_m: Vec<V3>) -> Self {
         let across = corners_m.len() / rows.len();
         let cells: Vec<&[V3]> = corners_m.chunks_exact(across).collect();
-        let reach = |i: usize| {
-            let held = || cells[i..(i + BLOCK + 1).min(cells.len())].iter().copied().flatten();
+        let reach = |first: usize, last: usize| {
+            let held = || cells[first..=last].iter().copied().flatten();
             let low = |axis: usize| held().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
             let high = |axis: usize| held().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
-            Reach { low_m: [low(0), low(1)], high_m: [high(0), high(1)] }
+            Reach { rows: [first, last], low_m: [low(0), low(1)], high_m: [high(0), high(1)] }
         };
-        let blocks = (0..rows.len() - 1).step_by(BLOCK).map(reach).collect();
+        // the first and the last row lie far away
+        let last = rows.len() - 1;
+        let inner = (1..last - 1).step_by(BLOCK).map(|first| reach(first, (first + BLOCK).min(last - 1)));
+        let blocks = core::iter::once(reach(0, 1)).chain(inner).chain([reach(last - 1, last)]).collect();
         Mesh::of(corners_m, across, Place::Line { rows, blocks })
     }
 
@@ -127,15 +135,27 @@ impl Mesh {
     }
 
     /// Corners of a triangle, clockwise from above, m.
-    pub fn face_m(&self, face: usize) -> [V3; 3] {
+    fn face_m(&self, face: usize) -> [V3; 3] {
         let (row, column) = self.cell(face);
         let at = |i: usize, j: usize| self.corners_m[(row + i) * self.across + column + j];
         if face.is_multiple_of(2) { [at(0, 0), at(1, 0), at(1, 1)] } else { [at(0, 0), at(1, 1), at(0, 1)] }
     }
 
-    /// Number of triangles.
-    pub fn faces(&self) -> usize {
-        self.normals.len()
+    /// The ground to draw: of a grid its triangles, of a road four corners for some metres of its way. Corners go
+    /// clockwise from above, m.
+    pub fn pieces_m(&self) -> Vec<Vec<V3>> {
+        if let Place::Grid { .. } = self.place {
+            return (0..self.normals.len()).map(|face| self.face_m(face).to_vec()).collect();
+        }
+        let last = self.rows() - 1;
+        // the first and the last row lie far away
+        let mut rows: Vec<usize> = core::iter::once(0).chain((1..last).step_by(ROWS_DRAWN)).collect();
+        rows.extend([last - 1, last].into_iter().filter(|row| *row > rows[rows.len() - 1]).collect::<Vec<_>>());
+        let at = |i: usize, j: usize| self.corners_m[i * self.across + j];
+        let piece = |(from, to): (usize, usize)| {
+            (0..self.across - 1).map(move |j| vec![at(from, j), at(to, j), at(to, j + 1), at(from, j + 1)])
+        };
+        rows.windows(2).flat_map(|pair| piece((pair[0], pair[1]))).collect()
     }
 
     fn cell(&self, face: usize) -> (usize, usize) {
@@ -242,9 +262,13 @@ impl Mesh {
             let Some(i) = row.checked_add_signed(i).filter(|i| i + 1 < self.rows()) else { continue };
             for j in -RINGS..=RINGS {
                 let Some(j) = column.checked_add_signed(j).filter(|j| j + 1 < self.across) else { continue };
+                if self.aside_m(i, j, point_m) >= least_m {
+                    continue;
+                }
                 for other in [0, 1].map(|half| self.face_of(i, j, half)) {
-                    // what lies in the same plane or below the tangent of a nearer face cannot be nearer
-                    if self.normals[other] == normal {
+                    // no point of a triangle is nearer than its plane
+                    let plane = self.normals[other];
+                    if plane == normal || plane.dot(&(point_m - self.point_m(other))) >= least_m {
                         continue;
                     }
                     let off = point_m - nearest(self.face_m(other), point_m);
@@ -256,6 +280,18 @@ impl Mesh {
             }
         }
         (least_m, away)
+    }
+
+    /// How far a point lies beside the box around a cell in plan, m.
+    fn aside_m(&self, row: usize, column: usize, point_m: &V3) -> f64 {
+        let at = |i: usize, j: usize| &self.corners_m[(row + i) * self.across + column + j];
+        let (a, b, c, d) = (at(0, 0), at(1, 0), at(1, 1), at(0, 1));
+        let beside = |axis: usize| {
+            let low = a[axis].min(b[axis]).min(c[axis]).min(d[axis]);
+            let high = a[axis].max(b[axis]).max(c[axis]).max(d[axis]);
+            (low - point_m[axis]).max(point_m[axis] - high)
+        };
+        beside(0).max(beside(1))
     }
 
     /// Distance of a place right of the X axis, or of the road's line, m.
@@ -288,13 +324,12 @@ impl Mesh {
 /// The number of the row behind a place: where the line passes nearest, if it passes more than once.
 fn row_at(rows: &[Row], blocks: &[Reach], at_m: [f64; 2]) -> usize {
     let mut best = (f64::INFINITY, 0);
-    for (block, reach) in blocks.iter().enumerate() {
+    for reach in blocks {
         let is_in = |axis: usize| (reach.low_m[axis]..=reach.high_m[axis]).contains(&at_m[axis]);
         if !(is_in(0) && is_in(1)) {
             continue;
         }
-        let first = block * BLOCK;
-        let last = (first + BLOCK).min(rows.len() - 1);
+        let [first, last] = reach.rows;
         let mut ahead_m = rows[first].seen_m(at_m)[0];
         for row in first..last {
             let [next_m, right_m] = rows[row + 1].seen_m(at_m);

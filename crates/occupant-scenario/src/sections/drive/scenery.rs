@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Point3, Vector3};
+use vehicle_motion::V3;
 use vehicle_motion::ground::Mesh;
 use vehicle_motion::marks::marks;
 
@@ -19,8 +20,8 @@ pub type Polygons = Vec<Vec<Point3<f64>>>;
 const BEYOND_M: f64 = 12.0;
 /// Number of corners of a wheel.
 const ROUND: usize = 24;
-/// Largest number of triangles of the ground that are drawn, and number of squares along a side that replace more.
-const MOST_FACES: usize = 4000;
+/// Largest number of pieces of the ground that are drawn, and number of squares along a side that replace more.
+const MOST_PIECES: usize = 4000;
 const SQUARES: usize = 40;
 /// Width of a tyre mark, and its height above the ground, m.
 const TREAD_M: f64 = 0.16;
@@ -93,17 +94,17 @@ fn road(drives: &Drives) -> Polygons {
     corners.windows(2).enumerate().filter_map(plane).collect()
 }
 
-/// The triangles of a mesh within a rectangle; of many, squares at equal distances instead.
+/// The pieces of a mesh within a rectangle; of many, squares at equal distances instead.
 fn faces(drives: &Drives, mesh: &Mesh, low_m: [f64; 2], high_m: [f64; 2]) -> Polygons {
-    let cut = |face: usize| {
-        let corners = mesh.face_m(face).map(|corner| Point3::new(corner.x, -corner.y, -corner.z));
+    let cut = |piece: Vec<V3>| {
+        let corners: Vec<_> = piece.iter().map(|corner| Point3::new(corner.x, -corner.y, -corner.z)).collect();
         // space axes: y to the left
         let sides = [(0, low_m[0], 1.0), (0, high_m[0], -1.0), (1, -high_m[1], 1.0), (1, -low_m[1], -1.0)];
-        let part = sides.iter().fold(corners.to_vec(), |polygon, side| clipped(&polygon, *side));
+        let part = sides.iter().fold(corners, |polygon, side| clipped(&polygon, *side));
         (part.len() > 2).then_some(part)
     };
-    let shown: Polygons = (0..mesh.faces()).filter_map(cut).take(MOST_FACES + 1).collect();
-    if shown.len() <= MOST_FACES {
+    let shown: Polygons = mesh.pieces_m().into_iter().filter_map(cut).take(MOST_PIECES + 1).collect();
+    if shown.len() <= MOST_PIECES {
         return shown;
     }
     let at = |i: usize, j: usize| {
