@@ -12,6 +12,8 @@ use crate::state::State;
 const TURNS_M_S: f64 = 0.127;
 /// Height of the hull over the ground below which it is evaluated, m.
 const NEAR_M: f64 = 0.05;
+/// Height of the hull over the ground up to which it is measured to the edges of a mesh, m; above `NEAR_M`.
+const SEEN_M: f64 = 0.06;
 /// Edge of a wheel: radius of its sphere, distance from the axle, distance from the middle plane, m.
 const EDGE_M: [f64; 3] = [0.05, 0.08, 0.05];
 /// Stiffness of a wheel's edge against a curb, N/m, a guess: rim, bearing and links.
@@ -185,7 +187,10 @@ impl Hull {
             let over = |sphere: &Sphere| height + down.dot(&sphere.place_m) - sphere.radius_m;
             return self.spheres.iter().map(over).fold(f64::INFINITY, f64::min);
         }
-        let over = |sphere: &Sphere| ground.distance(&(at + axes * sphere.place_m)).0 - sphere.radius_m;
+        let over = |sphere: &Sphere| {
+            let within_m = sphere.radius_m + SEEN_M;
+            ground.distance_within(&(at + axes * sphere.place_m), within_m).0 - sphere.radius_m
+        };
         self.spheres.iter().map(over).fold(f64::INFINITY, f64::min)
     }
 
@@ -201,7 +206,7 @@ impl Hull {
         self.meets(pose, meet);
         for (number, sphere) in self.spheres.iter().enumerate() {
             let centre_m = pose.at_m + pose.axes * sphere.place_m;
-            let (distance, normal) = ground.distance(&centre_m);
+            let (distance, normal) = ground.distance_within(&centre_m, sphere.radius_m);
             let (radius_m, stiffness) = (sphere.radius_m, sphere.stiffness);
             let depth_m = radius_m - distance;
             let (friction, is_edge, counts) = (None, false, 1.0);

@@ -8,10 +8,8 @@ use crate::V3;
 
 /// Rings of cells around the one below that may be nearest to a point above an edge.
 const RINGS: isize = 2;
-/// Height above which only the face below tells the distance, m.
-const HIGH_M: f64 = 1.0;
-/// Rows of a road that are skipped together when a place is looked for.
-const BLOCK: usize = 16;
+/// Cosine of the turn up to which rows of a road make a block, within which a place is found by halving.
+const BLOCK_TURNS: f64 = 0.5;
 
 /// Number of rows of a bend that a drawing takes together.
 const ROWS_DRAWN: usize = 5;
@@ -113,10 +111,19 @@ impl Mesh {
             let high = |axis: usize| held().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
             Reach { rows: [first, last], low_m: [low(0), low(1)], high_m: [high(0), high(1)] }
         };
-        // the first and the last row lie far away
+        let (mut blocks, mut first) = (Vec::new(), 0);
         let last = rows.len() - 1;
-        let inner = (1..last - 1).step_by(BLOCK).map(|first| reach(first, (first + BLOCK).min(last - 1)));
-        let blocks = core::iter::once(reach(0, 1)).chain(inner).chain([reach(last - 1, last)]).collect();
+        while first < last {
+            let turns = |row: &Row| {
+                let way = rows[first].way;
+                row.way[0] * way[0] + row.way[1] * way[1] < BLOCK_TURNS
+            };
+            // at least one cell; the first and the last, which reach far, for themselves
+            let most = if first == 0 { 1 } else { (last - 1).max(first + 1) };
+            let end = (first + 1..most).find(|row| turns(&rows[row + 1])).unwrap_or(most);
+            blocks.push(reach(first, end));
+            first = end;
+        }
         Mesh::of(corners_m, across, Place::Line { rows, blocks })
     }
 
@@ -197,6 +204,13 @@ impl Mesh {
         self.face_of(row, column, usize::from(right_of(&a, &c, at_m) > 0.0))
     }
 
+    /// The triangle at a place that is likely to be in a known one.
+    pub(super) fn face_towards(&self, face: usize, at_m: [f64; 2]) -> usize {
+        let [a, b, c] = self.face_m(face);
+        let is_in = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| right_of(from, to, at_m) >= 0.0);
+        if is_in { face } else { self.face_at(at_m[0], at_m[1]) }
+    }
+
     /// Height at a place, m.
     pub(super) fn height_m(&self, x_m: f64, y_m: f64) -> f64 {
         let face = self.face_at(x_m, y_m);
@@ -211,12 +225,7 @@ impl Mesh {
         if (self.normals[first] - self.normals[first + 1]).norm_squared() > 1e-24 {
             return None;
         }
-        let ([a, b, c], [.., d]) = (self.face_m(first), self.face_m(first + 1));
-        let is_far = |(from, to): (V3, V3)| {
-            let length_m = ((to.x - from.x) * (to.x - from.x) + (to.y - from.y) * (to.y - from.y)).sqrt();
-            right_of(&from, &to, [x_m, y_m]) > way_m * length_m
-        };
-        [(a, b), (b, c), (c, d), (d, a)].into_iter().all(is_far).then_some(first)
+        self.is_within(face, &V3::new(x_m, y_m, 0.0), way_m).then_some(first)
     }
 
     /// Where a straight way in plan leaves a triangle, and the triangle beyond that edge; none at the rim.
@@ -248,19 +257,21 @@ impl Mesh {
         }
     }
 
-    /// Distance of a point to the triangles, m, negative below, and the direction away from them.
-    pub(super) fn distance(&self, point_m: &V3) -> (f64, V3) {
+    /// Distance of a point to the triangles, m, negative below, and the direction away from them. What is further off than
+    /// `within_m` may be given by the face below alone.
+    pub(super) fn distance(&self, point_m: &V3, within_m: f64) -> (f64, V3) {
         let face = self.face_at(point_m.x, point_m.y);
         let normal = self.normals[face];
         let over_m = normal.dot(&(point_m - self.point_m(face)));
-        if over_m <= 0.0 || over_m > HIGH_M {
+        let (mut least_m, mut away) = (over_m.min(within_m), normal);
+        if over_m <= 0.0 {
             return (over_m, normal);
         }
-        let (mut least_m, mut away) = (over_m, normal);
+        let rings = if self.is_within(face, point_m, least_m) { 0 } else { RINGS };
         let (row, column) = self.cell(face);
-        for i in -RINGS..=RINGS {
+        for i in -rings..=rings {
             let Some(i) = row.checked_add_signed(i).filter(|i| i + 1 < self.rows()) else { continue };
-            for j in -RINGS..=RINGS {
+            for j in -rings..=rings {
                 let Some(j) = column.checked_add_signed(j).filter(|j| j + 1 < self.across) else { continue };
                 if self.aside_m(i, j, point_m) >= least_m {
                     continue;
@@ -279,7 +290,18 @@ impl Mesh {
                 }
             }
         }
-        (least_m, away)
+        if least_m < over_m.min(within_m) { (least_m, away) } else { (over_m, normal) }
+    }
+
+    /// Whether the cell of a face reaches further than this from a point to all sides in plan, m.
+    fn is_within(&self, face: usize, point_m: &V3, way_m: f64) -> bool {
+        let first = face & !1;
+        let ([a, b, c], [.., d]) = (self.face_m(first), self.face_m(first + 1));
+        [(a, b), (b, c), (c, d), (d, a)].into_iter().all(|(from, to)| {
+            let (x, y) = (to.x - from.x, to.y - from.y);
+            let right = right_of(&from, &to, [point_m.x, point_m.y]);
+            right > 0.0 && right * right > way_m * way_m * (x * x + y * y)
+        })
     }
 
     /// How far a point lies beside the box around a cell in plan, m.
@@ -329,14 +351,17 @@ fn row_at(rows: &[Row], blocks: &[Reach], at_m: [f64; 2]) -> usize {
         if !(is_in(0) && is_in(1)) {
             continue;
         }
-        let [first, last] = reach.rows;
-        let mut ahead_m = rows[first].seen_m(at_m)[0];
-        for row in first..last {
-            let [next_m, right_m] = rows[row + 1].seen_m(at_m);
-            if ahead_m >= 0.0 && next_m < 0.0 && right_m.abs() < best.0 {
-                best = (right_m.abs(), row);
-            }
-            ahead_m = next_m;
+        let [mut row, mut end] = reach.rows;
+        if rows[row].seen_m(at_m)[0] < 0.0 || rows[end].seen_m(at_m)[0] >= 0.0 {
+            continue;
+        }
+        while end - row > 1 {
+            let middle = row.midpoint(end);
+            if rows[middle].seen_m(at_m)[0] >= 0.0 { row = middle } else { end = middle }
+        }
+        let right_m = rows[end].seen_m(at_m)[1].abs();
+        if right_m < best.0 {
+            best = (right_m, row);
         }
     }
     if best.0 < f64::INFINITY { best.1 } else { nearest_row(rows, at_m) }

@@ -243,7 +243,7 @@ impl Ground {
     fn face_towards(&self, face: usize, at_m: [f64; 2]) -> usize {
         match &self.shape {
             Shape::Section(section) => section.plane_towards(face, at_m[1]),
-            Shape::Mesh(mesh) => mesh.face_at(at_m[0], at_m[1]),
+            Shape::Mesh(mesh) => mesh.face_towards(face, at_m),
         }
     }
 
@@ -295,11 +295,16 @@ impl Ground {
     }
 
     /// Distance of a point to the ground, m, negative below it, and the direction away from the ground, vehicle-space.
-    /// Convex edges are rounded.
+    /// Convex edges are rounded. From 1 m on the face below alone may tell it.
     pub fn distance(&self, point_m: &V3) -> (f64, V3) {
+        self.distance_within(point_m, 1.0)
+    }
+
+    /// The same; of a mesh, what is further off than `within_m` may be given by the face below alone.
+    pub(crate) fn distance_within(&self, point_m: &V3, within_m: f64) -> (f64, V3) {
         match &self.shape {
             Shape::Section(section) => section.distance(point_m),
-            Shape::Mesh(mesh) => mesh.distance(point_m),
+            Shape::Mesh(mesh) => mesh.distance(point_m, within_m),
         }
     }
 
