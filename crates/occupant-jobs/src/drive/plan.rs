@@ -25,6 +25,9 @@ const PART_M: f64 = 0.05;
 const LINES: usize = 1000;
 /// Number of fields along a side in which lines of equal height are looked for.
 const FIELDS: usize = 60;
+/// Possible differences of height between them, m, and least distance of their labels, user units.
+const STEPS_M: [f64; 10] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
+const LABEL: f64 = 60.0;
 /// Colours of the vehicles in order, repeated.
 const COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6d1f"];
 
@@ -199,42 +202,48 @@ fn ground(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
     }
 }
 
-/// Lines of equal height, with labels where they begin.
+/// Lines of equal height with their labels, which keep apart.
 fn contours(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
     let at = |i: usize, j: usize| {
         let place = [(0, i), (1, j)]
             .map(|(axis, k)| sheet.low[axis] + (sheet.high[axis] - sheet.low[axis]) * k as f64 / FIELDS as f64);
         (place, drives.world.ground.height_m(place[0], place[1]))
     };
-    let heights = || (0..=FIELDS).flat_map(|i| (0..=FIELDS).map(move |j| at(i, j).1));
-    let (low_m, high_m) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), h| (a.min(h), b.max(h)));
-    let step_m =
-        [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0].into_iter().find(|step| (high_m - low_m) / step <= 8.0);
+    let fields = || (0..FIELDS).flat_map(|i| (0..FIELDS).map(move |j| (i, j)));
+    let halves = |(i, j)| [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]];
+    let triangles: Vec<Triangle> = fields().flat_map(halves).collect();
+    let heights = triangles.iter().flatten().map(|corner| corner.1);
+    let (low_m, high_m) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), h| (a.min(h), b.max(h)));
+    let step_m = STEPS_M.into_iter().find(|step| (high_m - low_m) / step <= 8.0);
     let Some(step_m) = step_m.filter(|_| high_m - low_m > 0.02) else { return };
+    let mut labels: Vec<[f64; 2]> = Vec::new();
     // between round heights, at which ground is often level
     let levels = ((low_m / step_m - 0.5).ceil() as i64)..=((high_m / step_m - 0.5).floor() as i64);
     for level_m in levels.map(|i| (i as f64 + 0.5) * step_m) {
-        let mut label = None;
-        for cell in 0..FIELDS * FIELDS {
-            let (i, j) = (cell / FIELDS, cell % FIELDS);
-            for triangle in [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]] {
-                let crossing = |k: usize| {
-                    let ((a, from_m), (b, to_m)) = (triangle[k], triangle[(k + 1) % 3]);
-                    let share = (level_m - from_m) / (to_m - from_m);
-                    ((from_m < level_m) != (to_m < level_m)).then(|| [0, 1].map(|x| a[x] + share * (b[x] - a[x])))
-                };
-                let ends: Vec<[f64; 2]> = (0..3).filter_map(crossing).collect();
-                if let [from, to] = ends[..] {
-                    svg.segment(sheet.at(from), sheet.at(to), "stroke=\"#b3ab92\"");
-                    label = label.or(Some(from));
-                }
-            }
-        }
-        if let Some(at) = label.map(|at| sheet.at(at)) {
+        let pieces = triangles.iter().filter_map(|triangle| crossed(triangle, level_m));
+        let pieces: Vec<_> = pieces.map(|ends| ends.map(|end| sheet.at(end))).collect();
+        pieces.iter().for_each(|[from, to]| svg.segment(*from, *to, "stroke=\"#b3ab92\""));
+        let is_free = |at: &[f64; 2]| labels.iter().all(|own| (own[0] - at[0]).hypot(own[1] - at[1]) > LABEL);
+        if let Some(at) = pieces.iter().map(|[from, _]| *from).find(is_free) {
             let style = Text { size: 11.0, fill: "#7a6a3a", ..Text::default() };
             svg.text([at[0] + 6.0, at[1] - 4.0], &format!("{level_m:+.2} m").replace('-', "−"), &style);
+            labels.push(at);
         }
     }
+}
+
+/// Corners of a triangle of the ground: place and height, m.
+type Triangle = [([f64; 2], f64); 3];
+
+/// Ends of the line in which a level cuts a triangle; none if it does not.
+fn crossed(triangle: &Triangle, level_m: f64) -> Option<[[f64; 2]; 2]> {
+    let crossing = |k: usize| {
+        let ((a, from_m), (b, to_m)) = (triangle[k], triangle[(k + 1) % 3]);
+        let share = (level_m - from_m) / (to_m - from_m);
+        ((from_m < level_m) != (to_m < level_m)).then(|| [0, 1].map(|x| a[x] + share * (b[x] - a[x])))
+    };
+    let mut ends = (0..3).filter_map(crossing);
+    Some([ends.next()?, ends.next()?])
 }
 
 fn marks(svg: &mut Svg, sheet: &Sheet, all: &[Driven]) {

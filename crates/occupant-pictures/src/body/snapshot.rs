@@ -5,6 +5,7 @@ use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::forces::shown::{Line, Section};
 use occupant_core::model::Model;
+use occupant_core::model::setup::Scenery;
 use occupant_core::results::sample::{Contact, Sample};
 use occupant_core::vehicle::FrameMotion;
 
@@ -12,6 +13,10 @@ use occupant_files::mcap::scene::compartment::{corners_m, square_m};
 
 /// Half side of the square drawn for an unbounded plane, m.
 pub const PATCH_M: f64 = 3.0;
+
+/// Name of the ground of driven vehicles among the scenery, and number of its pieces that is drawn as surfaces are.
+const ROAD: &str = "road";
+const FEW_PIECES: usize = 60;
 
 /// The body, the contacts and other force elements at one output.
 #[derive(Clone, Debug)]
@@ -55,14 +60,20 @@ impl Snapshot {
         }
     }
 
-    /// Everything visible as polygons: the surfaces, then all faces of the solids, then scenery, m.
+    /// The surfaces, then all faces of the solids, then scenery without relief, as polygons, m.
     pub fn polygons_m(&self, model: &Model) -> Vec<Vec<Point3<f64>>> {
         let faces = model.faces().iter().map(|face| self.corners_m(face));
         let solids = &model.setup().solids;
         let sides = solids.iter().flat_map(|s| s.outline().into_iter().map(|side| self.placed(s.frame, side)));
-        let drawn = model.setup().scenery.iter();
+        let drawn = model.setup().scenery.iter().filter(|own| !is_relief(own));
         let drawn = drawn.flat_map(|own| own.polygons_m.iter().map(|side| self.placed(own.frame, side.clone())));
         faces.chain(sides).chain(drawn).collect()
+    }
+
+    /// Ground of many pieces, m.
+    pub fn relief_m(&self, model: &Model) -> Vec<Vec<Point3<f64>>> {
+        let drawn = model.setup().scenery.iter().filter(|own| is_relief(own));
+        drawn.flat_map(|own| own.polygons_m.iter().map(|side| self.placed(own.frame, side.clone()))).collect()
     }
 
     /// A surface's corners, an unbounded one's as a square below the vehicle's origin, m.
@@ -98,6 +109,11 @@ impl Snapshot {
         let foot = origin - face.normal * height;
         square_m(face, foot.into(), PATCH_M)
     }
+}
+
+/// Whether scenery is ground of so many pieces that their edges would hide the body.
+fn is_relief(own: &Scenery) -> bool {
+    own.name == ROAD && own.polygons_m.len() > FEW_PIECES
 }
 
 /// Motions of the frames of surfaces, solids and scenery besides those of the vehicle and of space.

@@ -65,6 +65,10 @@ impl Place {
 pub fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, corner: [f64; 2], corner_m: [f64; 2]) {
     let place = Place { view, scale: pen.scale, origin: [0, 1].map(|i| corner[i] - pen.scale * corner_m[i]) };
     let (before, behind) = surfaces(pen, moment, view);
+    for corners in moment.relief_m(pen.strip.model) {
+        let look = format!("fill=\"{SURFACE}\" fill-opacity=\"0.04\" stroke=\"{SURFACE}\" stroke-width=\"0.2\"");
+        svg.polygon(&place.all(&corners), &look);
+    }
     for corners in &behind {
         draw_surface(svg, &place, corners, false);
     }

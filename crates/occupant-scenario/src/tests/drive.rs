@@ -193,7 +193,7 @@ fn a_survey_is_read_from_a_file() {
     let cases = [
         (sound.replace("10,1,20\n", ""), "3 points at 2 places of x and 2 of y"),
         (sound.replace("0,1,20\n10", "0,-1,0\n10"), "twice"),
-        (format!("{sound}13,-1,0\n13,1,0\n"), "uneven steps"),
+        (format!("{sound}13,-1,0\n13,1,0\n"), "x = 10 m and next 13 m, 3.000 m apart"),
         (sound.replace("height", "z"), "unknown column `z`"),
         ("x[m],y[m],height[m]\n0,0,0\n".to_owned(), "at least 2 of each"),
         (sound.replace("10,1,20", "10,1,x"), "`x`"),

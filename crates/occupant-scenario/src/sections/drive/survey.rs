@@ -53,7 +53,7 @@ pub(crate) struct GridSection {
 /// Columns of a table of heights.
 const COLUMNS: [Column; 3] =
     [column("x", kind::LENGTH, true), column("y", kind::LENGTH, true), column("height", kind::LENGTH, true)];
-/// Part of a step by which a point may miss its place in the grid.
+/// Part of a step by which distances of points may differ.
 const ROUGH: f64 = 0.01;
 
 /// Corners of a cross-section, m; a mistake is reported.
@@ -164,11 +164,16 @@ fn from_points(points_m: &[[f64; 3]]) -> Result<Mesh, String> {
         return Err(format!("points at {} places of x and {} of y; expected at least 2 of each", counts[0], counts[1]));
     }
     let step_m = [0, 1].map(|i| (lines[i][counts[i] - 1] - lines[i][0]) / (counts[i] - 1) as f64);
-    for (i, name) in ["x", "y"].into_iter().enumerate() {
-        let off = |(k, at): &(usize, &f64)| (*at - lines[i][0] - *k as f64 * step_m[i]).abs() > ROUGH * step_m[i];
-        if let Some((k, at)) = lines[i].iter().enumerate().find(off) {
-            let expected = lines[i][0] + k as f64 * step_m[i];
-            return Err(format!("{name} = {at} m in uneven steps; a regular grid would have {expected:.3} m there"));
+    for (name, places) in ["x", "y"].into_iter().zip(&lines) {
+        let mut gaps: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        gaps.sort_by(f64::total_cmp);
+        let usual_m = gaps[gaps.len() / 2];
+        let is_off = |pair: &&[f64]| (pair[1] - pair[0] - usual_m).abs() > ROUGH * usual_m;
+        if let Some([from, to]) = places.windows(2).find(is_off) {
+            let gap_m = to - from;
+            return Err(format!(
+                "{name} = {from} m and next {to} m, {gap_m:.3} m apart, where most are {usual_m:.3} m apart"
+            ));
         }
     }
     let cells = counts[0].checked_mul(counts[1]).filter(|cells| *cells == points_m.len());
