@@ -55,7 +55,8 @@ fn a_wheel_meets_the_same_ground_however_it_is_given() {
             assert!((near.0 - far.0).abs() < 1e-9, "{i}: {x} {y} {near:?} {far:?}");
         }
     }
-    assert!(met > 3000, "{met}");
+    // measured 6568 contacts
+    assert!(met > 6000, "{met}");
 }
 
 /// A car that leaves the road and crosses the ditch moves alike on all three; and on a road that runs another way, as
@@ -79,6 +80,7 @@ fn a_ditch_is_crossed_alike_on_a_section_a_road_and_a_grid() {
     assert!(section.x > 40.0 && section.y > 6.0, "{section:?}");
     for (name, place) in cases {
         let off_m = (place - section).norm();
+        // measured 0.13, 0.01, 0.002 mm; the tolerance is 0.1 mm
         assert!(off_m < 2e-4, "{name}: {off_m} m off {section:?}");
     }
 }
@@ -144,7 +146,7 @@ fn a_banked_bend_carries_a_car_round() {
         let side_n: f64 = station.wheels.iter().map(|wheel| wheel.shear_n[1]).sum();
         aside_m_s2 = aside_m_s2.max(side_n.abs() / car.mass_kg);
     }
-    // on the level it would need 5 m/s²
+    // measured 1.2 m and 0.48 m/s²; on the level it would need 5 m/s²
     assert!(most_m < 1.5 && aside_m_s2 < 1.0, "{most_m} m {aside_m_s2} m/s2");
 }
 
@@ -168,7 +170,8 @@ fn a_way_over_a_grid_gains_no_energy() {
                 most = most.max(work.abs());
             }
         }
-        assert!(most > 1e-5 && work.abs() < 1e-3 * most, "{roll} {yaw}: {work} of {most}");
+        // measured 1.8e-5, 2.4e-5, 7e-8
+        assert!(most > 1e-5 && work.abs() < 1e-4 * most, "{roll} {yaw}: {work} of {most}");
     }
 }
 
