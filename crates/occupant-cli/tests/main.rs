@@ -11,6 +11,7 @@ mod examined;
 mod fit;
 mod histories;
 mod laboratory;
+mod optimise;
 mod pages;
 mod pictures;
 mod print;

@@ -62,6 +62,8 @@ mod law;
 pub mod misfit;
 mod morris;
 mod normal;
+mod optimise;
+mod optimise_section;
 mod parameter;
 mod permutation;
 mod random;
@@ -75,7 +77,7 @@ mod sobol;
 pub mod spread;
 mod text;
 
-pub use bind::MOST_RUNS;
+pub use bind::{MOST_RUNS, is_allowed};
 pub use corners::Corner;
 pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances, without_place};
@@ -84,6 +86,8 @@ pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, GainRange, 
 pub use keep::Keep;
 pub use law::{Bounds, Distribution, Law, Value};
 pub use normal::quantile as normal_quantile;
+pub use optimise::{Constraint, Goal, Optimise};
+pub use optimise_section::{ConstraintSection, GoalSection, OptimiseSection};
 pub use parameter::{Assignment, Parameter, Target};
 pub use random::of_resample;
 pub use saltelli::Block;

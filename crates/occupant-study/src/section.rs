@@ -13,6 +13,7 @@ use super::design::Design;
 use super::fit_section::FitSection;
 use super::keep::KeepSection;
 use super::law::Distribution;
+use super::optimise_section::OptimiseSection;
 use occupant_scenario::kind::UnitSystem;
 use occupant_scenario::schema_of;
 use occupant_scenario::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
@@ -57,6 +58,8 @@ pub struct StudySection {
     pub ensemble: Option<EnsembleSection>,
     /// Target of `occupant fit`; a sweep ignores it.
     pub fit: Option<FitSection>,
+    /// Target of `occupant optimise`; a sweep ignores it.
+    pub optimise: Option<OptimiseSection>,
     /// Runs whose full result file is kept: "all", "none", a list of indices, or for example "worst 5 by hic15"; "none" if
     /// absent.
     pub keep: Option<KeepSection>,

@@ -9,13 +9,12 @@ use occupant_jobs::files::study_folder::checksums::Checksums;
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::journal::Journal;
 use occupant_jobs::files::study_folder::shard::Shard;
-use occupant_jobs::fit::evaluator::Evaluator;
 use occupant_jobs::fit::fitting::Fitting;
 use occupant_jobs::fit::identified::search;
 use occupant_jobs::fit::opening::Given;
 use occupant_jobs::fit::output::Output;
-use occupant_jobs::fit::progress::Progress;
 use occupant_jobs::fit::report;
+use occupant_jobs::search::{Evaluator, Progress};
 use occupant_jobs::sweep::stored::sha256_of;
 use occupant_jobs::sweep::words::{tell_damaged, warn_unlocked};
 

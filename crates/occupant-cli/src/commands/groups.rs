@@ -8,7 +8,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
     ("Simulate", &["run", "drive"]),
     ("Look at a run", &["view", "report", "plot", "print", "channels"]),
     ("Judge a run or a test", &["measures", "compare", "risk", "sensitivity"]),
-    ("Many runs", &["sweep", "study", "fit"]),
+    ("Many runs", &["sweep", "study", "fit", "optimise"]),
     ("Exchange data with other programs and tests", &["import", "export", "convert"]),
     ("This program", &["completions", "man", "help"]),
 ];

@@ -21,6 +21,7 @@ mod import;
 mod man;
 mod measures;
 mod new;
+mod optimise;
 mod plot;
 mod print;
 mod report;
@@ -77,6 +78,7 @@ commands! {
     Sweep: sweep::sweep,
     Study: study::study,
     Fit: fit::fit,
+    Optimise: optimise::optimise,
     Surface: surface::surface,
     Check: check::check,
     New: new::new,

@@ -2,14 +2,19 @@
 
 use std::path::Path;
 
+use occupant_core::model::Model;
+use occupant_core::results::channel::Series;
+use occupant_core::results::summary::Caveat;
+use occupant_scenario::Diagnostics;
+use occupant_study::engine::Ran;
 use occupant_study::{ApplyChoice, Bounds, Distribution, Fit, Law, Parameter, StudyText};
 use serde::Serialize;
 
 use super::opening::{Given, Opening};
-use super::{Correction, Experiment, Target};
+use super::{Correction, Experiment, Objective, Target, WORST};
 use crate::base::{Failure, file_name, file_stem};
 use crate::files::scenario::{nothing_was_run, refused};
-use crate::files::study_folder::{Manifest, NamedBy, Text, Texts};
+use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Text, Texts};
 use crate::sweep::plan::study_text;
 
 /// Largest number of evaluations beyond the budget.
@@ -97,32 +102,71 @@ impl Fitting {
         self.tests.iter().map(of).collect()
     }
 
-    /// Values of the parameters, SI, at a point of the unit cube.
-    pub fn values(&self, at: &[f64]) -> Vec<f64> {
-        self.bounds.iter().zip(at).map(|(b, u)| b.value(*u)).collect()
-    }
-
-    /// Score from the misfits of all targets, by experiment.
-    pub fn score(&self, parts: &[f64]) -> f64 {
-        let weights = self.targets().map(|(_, target)| target.weight);
-        self.fit.misfit.combined(weights.zip(parts.iter().copied()))
-    }
-
     /// All targets by experiment, each with the index of its test.
     pub fn targets(&self) -> impl Iterator<Item = &(usize, Target)> {
         self.experiments.iter().flat_map(|e| &e.targets)
     }
 
-    /// Start of the search: the base scenario's values where they are between the bounds, else the middle.
-    pub fn start(&self) -> Vec<f64> {
-        let start = |(parameter, bounds): (&Parameter, &Bounds)| match parameter.nominal() {
-            occupant_study::Value::Number(x) => {
-                let u = bounds.part(x);
-                if (0.0..=1.0).contains(&u) { u } else { 0.5 }
-            }
-            _ => 0.5,
+    /// Score from the misfits of all targets, by experiment.
+    pub fn combined(&self, parts: &[f64]) -> f64 {
+        let weights = self.targets().map(|(_, target)| target.weight);
+        self.fit.misfit.combined(weights.zip(parts.iter().copied()))
+    }
+}
+
+impl Objective for Fitting {
+    type Recorder = Series;
+
+    fn word(&self) -> &'static str {
+        "fit"
+    }
+
+    fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
+
+    fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    fn bounds(&self) -> &[Bounds] {
+        &self.bounds
+    }
+
+    fn runs(&self) -> u64 {
+        self.experiments.len() as u64
+    }
+
+    fn begin(&self, run: u64, values: Option<&[f64]>) -> Result<(Model, Series), Diagnostics> {
+        let experiment = &self.experiments[run as usize];
+        Ok((experiment.model_of(values)?, Series::new(experiment.recorded.clone())))
+    }
+
+    fn end(&self, run: u64, values: Option<&[f64]>, ran: Ran<Series>) -> Result<(Vec<f64>, Vec<Caveat>), String> {
+        let experiment = &self.experiments[run as usize];
+        let misfits = experiment.misfits(self.fit.misfit, &ran.recorder, &self.corrections(values))?;
+        Ok((misfits, Vec::new()))
+    }
+
+    fn score(&self, parts: &[f64], _has_caveats: bool) -> f64 {
+        self.combined(parts)
+    }
+
+    fn told(&self, score: f64) -> String {
+        if score < WORST { format!("score {score:.5}") } else { "no completed run yet".to_owned() }
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let column = |(test, target): &(usize, Target)| Column {
+            name: format!("{}.{}", self.tests[*test].name, target.channel.name),
+            unit: "1".to_owned(),
+            role: Role::Figure,
         };
-        self.parameters.iter().zip(&self.bounds).map(start).collect()
+        self.targets().map(column).collect()
+    }
+
+    fn row(&self, parts: &[f64]) -> Vec<f64> {
+        (0..self.targets().count()).map(|i| parts.get(i).copied().unwrap_or(f64::NAN)).collect()
     }
 }
 

@@ -5,7 +5,7 @@ use occupant_study::misfit::{likelihood_rise, unrelated_samples};
 use occupant_study::search::{Descents, Global, Point, Profiles, Reach, Shape, Stage, descend, profile, refine, scan};
 use serde::Serialize;
 
-use super::{Evaluator, Fitting, Record, WORST};
+use super::{Evaluator, Fitting, Objective, Record, WORST};
 use crate::base::Failure;
 
 /// Difference of scores that counts as equal by default, except for the likelihood of "rms".
@@ -50,7 +50,7 @@ pub struct Near {
 ///
 /// # Errors
 /// A signal, a full disk, a fit in which no candidate could be run.
-pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer, Failure> {
+pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_, Fitting>) -> Result<Answer, Failure> {
     let before = evaluator.base()?;
     let global = descents(fitting, evaluator)?;
     let misfit = fitting.fit.misfit;
@@ -81,7 +81,7 @@ pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer
 }
 
 /// The global search.
-fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, Failure> {
+fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_, Fitting>) -> Result<Global, Failure> {
     let fit = &fitting.fit;
     let how = Descents {
         start: fitting.start(),
@@ -91,14 +91,7 @@ fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, 
         tolerance: fit.tolerance,
     };
     let global = descend(&how, &mut |stage: Stage, points: &[Vec<f64>]| evaluator.scores(stage, points))?;
-    if global.best.value < WORST {
-        return Ok(global);
-    }
-    let reason = evaluator.records.iter().rev().find_map(|r| r.reason.clone()).unwrap_or_default();
-    Err(Failure::broke_off(format!(
-        "none of {} candidates could be run; the last one: {reason}\n = help: narrow the parameter ranges, and try the base scenario with `occupant run`",
-        evaluator.records.len()
-    )))
+    if global.best.value < WORST { Ok(global) } else { Err(evaluator.none_could_be_run()) }
 }
 
 /// Rise of the cost above the best point up to which sets count as equally good.

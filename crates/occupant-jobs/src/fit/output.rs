@@ -7,9 +7,10 @@ use occupant_core::results::summary::Summarizer;
 
 use super::plots::{Pair, sheets};
 use super::scenario_text::{fitted, numbers};
-use super::{Accord, Answer, Correction, Experiment, FitResult, Fitted, Fitting, Record, candidates, report};
+use super::{Accord, Answer, Correction, Experiment, FitResult, Fitted, Fitting, Objective, Record, report};
 use crate::base::{Existing, Failure, file_name, file_stem, json, say, write_whole};
 use crate::files::study_folder::{Checksums, Folder};
+use crate::search::history;
 
 /// Writes the results of a fit.
 pub struct Output<'a> {
@@ -51,7 +52,7 @@ impl Output<'_> {
         for experiment in &self.fitting.experiments {
             self.write_scenario(experiment, &result)?;
         }
-        let tables = candidates::write(self.folder, self.fitting, records)?;
+        let tables = history::write(self.folder, self.fitting, records)?;
         tables.iter().try_for_each(|table| self.sums.add(table))?;
         let lines = [format!("{}: {} score {:.5}", result.study.file, result.objective, result.score.after)];
         for (name, svg) in sheets(self.fitting, &corrections, &runs, &lines).map_err(Failure::broke_off)? {
@@ -89,24 +90,47 @@ impl Output<'_> {
         let provenance: Vec<(String, String)> = numbers.iter().map(|n| (n.path.clone(), words(n))).collect();
         let head =
             format!("# {} with the numbers of the fit {study}: see [provenance].\n", file_name(&experiment.scenario));
-        let (text, kept) = fitted(experiment, &numbers, &provenance, &head).map_err(Failure::broke_off)?;
-        if !kept {
-            say(&format!("note: {name} is rewritten; its comments and order are lost"));
-        }
-        self.put(Path::new(name), text.as_bytes())?;
-        let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-        // beside the scenario that names them, if that is a place below it
-        let is_below = |table: &str| Path::new(table).components().all(|c| matches!(c, Component::Normal(_)));
-        let mut tables = experiment.tables.0.iter().filter(|(table, _)| is_below(table));
-        tables.try_for_each(|(table, bytes)| self.put(&folder.join(table), bytes))
+        write_scenario((self.folder, self.sums), experiment, &numbers, &provenance, &head)
     }
 
     /// Writes a file of the folder, atomically.
     fn put(&self, name: &Path, bytes: &[u8]) -> Result<(), Failure> {
-        let path = self.folder.path.join(name);
-        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-        made.map_err(|e| Failure::broke_off(format!("cannot write {}: {e}", path.display())))?;
-        let written = write_whole(&path, Existing::Replace, bytes).map_err(Failure::broke_off)?;
-        Ok(self.sums.add(&written)?)
+        put((self.folder, self.sums), name, bytes)
     }
+}
+
+/// Writes the scenario of an experiment with these numbers and their provenance, and the tables that it names.
+///
+/// # Errors
+/// Numbers that the scenario refuses; a file that cannot be written.
+pub fn write_scenario(
+    place: (&Folder, &Checksums),
+    experiment: &Experiment,
+    numbers: &[&Fitted],
+    provenance: &[(String, String)],
+    head: &str,
+) -> Result<(), Failure> {
+    let name = &experiment.fitted;
+    let (text, kept) = fitted(experiment, numbers, provenance, head).map_err(Failure::broke_off)?;
+    if !kept {
+        say(&format!("note: {name} is rewritten; its comments and order are lost"));
+    }
+    put(place, Path::new(name), text.as_bytes())?;
+    let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+    // beside the scenario that names them, if that is a place below it
+    let is_below = |table: &str| Path::new(table).components().all(|c| matches!(c, Component::Normal(_)));
+    let mut tables = experiment.tables.0.iter().filter(|(table, _)| is_below(table));
+    tables.try_for_each(|(table, bytes)| put(place, &folder.join(table), bytes))
+}
+
+/// Writes a file of a folder, atomically.
+///
+/// # Errors
+/// An error of the operating system.
+pub fn put((folder, sums): (&Folder, &Checksums), name: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let path = folder.path.join(name);
+    let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+    made.map_err(|e| Failure::broke_off(format!("cannot write {}: {e}", path.display())))?;
+    let written = write_whole(&path, Existing::Replace, bytes).map_err(Failure::broke_off)?;
+    Ok(sums.add(&written)?)
 }

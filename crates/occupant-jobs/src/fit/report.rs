@@ -61,7 +61,7 @@ impl ParameterEstimate {
 }
 
 /// A number with five significant digits.
-pub(super) fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
     rounded.to_string()
 }

@@ -216,7 +216,7 @@ impl FitResult {
             budget: fitting.fit.budget,
             tolerance: fitting.fit.tolerance,
             tests: fitting.tests.clone(),
-            score: Score { before, after: fitting.score(&after), channels },
+            score: Score { before, after: fitting.combined(&after), channels },
             near: NearOptimal { score: limit, near: answer.near, sets: sets.len() },
             parameters,
             correlations: correlations(fitting, answer),

@@ -1,10 +1,11 @@
 //! Identifiability of each parameter, from the ends of its interval.
 
+use occupant_scenario::Draft;
 use occupant_study::search::End;
-use occupant_study::{ApplyChoice, Bounds, Value};
+use occupant_study::{ApplyChoice, Bounds, Parameter, Value};
 use serde::Serialize;
 
-use super::{Answer, COMPENSATING, Fitting, IntervalEnd, ParameterEstimate, Record};
+use super::{Answer, COMPENSATING, Fitting, IntervalEnd, Objective, ParameterEstimate, Record};
 
 /// Largest interval, as a fraction of the range, between two bounds that still identifies a parameter.
 const WIDE: f64 = 0.25;
@@ -54,7 +55,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
     ParameterEstimate {
         name: of.name.clone(),
         unit: of.unit,
-        shown: shown_unit(fitting, i),
+        shown: shown_unit(of, &fitting.experiments[0].study.base),
         apply: of.apply,
         places: of.targets.iter().map(|t| t.path.clone()).collect(),
         bounds: [bounds.from, bounds.to],
@@ -75,10 +76,8 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
     }
 }
 
-/// Display unit of a parameter, and its SI value: the unit used in the scenario.
-fn shown_unit(fitting: &Fitting, i: usize) -> (String, f64) {
-    let parameter = &fitting.parameters[i];
-    let base = &fitting.experiments[0].study.base;
+/// Display unit of a parameter, and its SI value: the unit used in the base scenario.
+pub fn shown_unit(parameter: &Parameter, base: &Draft) -> (String, f64) {
     let place = parameter.targets.first();
     match parameter.apply {
         ApplyChoice::Factor => (String::new(), 1.0),

@@ -22,7 +22,7 @@ pub use columns::columns;
 pub use figures::{Figure, Figures};
 pub use intervals::Intervals;
 pub use json::json;
-pub use page::{OWN_STYLE, page, sections};
+pub use page::{OWN_STYLE, begun, ended, page, sections};
 pub use subject::{PATH_INTERVAL_S, Subject, vehicles};
 pub use table::text;
 use table::{shown, unit_of};

@@ -19,21 +19,31 @@ const PLOT: [f64; 2] = [430.0, 240.0];
 
 /// The complete file; `origin` lists the sources of the numbers.
 pub fn page(report: &Report, units: Option<UnitSystem>, origin: &[(&str, String)]) -> String {
-    let title = format!("Occupant risk of {}", report.subject.name);
-    let mut html = Html::default();
-    html.raw("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-    html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    html.raw(&format!("{}\n", about_page(&title)));
-    html.raw(
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n",
-    );
-    html.text("title", &title);
-    html.raw(&format!("<style>\n{}\n{OWN_STYLE}\n{PRINT}</style>\n", STYLE.trim_end()));
-    html.raw("</head>\n<body>\n<div id=\"report\" class=\"study\">\n<header>\n");
-    html.text("h1", &title);
+    let mut html = begun(&format!("Occupant risk of {}", report.subject.name));
     html.text("p", "Occupant risk from the vehicle’s motion alone");
     html.raw("</header>\n");
     html.raw(&sections(report, units));
+    ended(html, origin)
+}
+
+/// A page that prints, up to its title; its header is open.
+pub fn begun(title: &str) -> Html {
+    let mut html = Html::default();
+    html.raw("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    html.raw(&format!("{}\n", about_page(title)));
+    html.raw(
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n",
+    );
+    html.text("title", title);
+    html.raw(&format!("<style>\n{}\n{OWN_STYLE}\n{PRINT}</style>\n", STYLE.trim_end()));
+    html.raw("</head>\n<body>\n<div id=\"report\" class=\"study\">\n<header>\n");
+    html.text("h1", title);
+    html
+}
+
+/// The whole page, with its sources.
+pub fn ended(mut html: Html, origin: &[(&str, String)]) -> String {
     html.text("h2", "Source");
     let made = [("report made by", program())];
     html.facts(&[origin, &made].concat());

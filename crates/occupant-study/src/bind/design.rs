@@ -38,6 +38,9 @@ impl Binder<'_> {
             if section.fit.is_some() {
                 hint.push_str(", or `occupant fit` for its [fit]");
             }
+            if section.optimise.is_some() {
+                hint.push_str(", or `occupant optimise` for its [optimise]");
+            }
             let expected = "how the samples are chosen";
             self.error("", "parameters without a `design`", expected, Some(hint));
         } else if section.ensemble.is_none() {

@@ -2,7 +2,7 @@
 
 use indexmap::IndexMap;
 
-use super::Binder;
+use super::{Binder, Purpose};
 use crate::fit::Fit;
 use crate::fit_section::{FitChannel, FitSection, FitTest};
 use crate::{Parameter, Study, StudyText};
@@ -12,9 +12,9 @@ use occupant_units::trig::ln;
 use placed_text::{Problem, Value};
 
 /// Default number of evaluations per parameter.
-const BUDGET: u64 = 400;
+pub(super) const BUDGET: u64 = 400;
 const POPULATION: usize = 16;
-const TOLERANCE: f64 = 1e-4;
+pub(super) const TOLERANCE: f64 = 1e-4;
 const MOST_EVALUATIONS: u64 = 10_000_000;
 const MOST_CANDIDATES: u64 = 10_000;
 
@@ -26,13 +26,14 @@ impl StudyText {
     pub fn fit(&self) -> Result<Fit, Diagnostics> {
         let empty = FitSection::default();
         let section = self.section.fit.as_ref().unwrap_or(&empty);
-        let mut binder = Binder::new(self, None);
+        let mut binder = Binder::new(self, Purpose::Sweep);
         if self.section.parameters.is_empty() {
             let hint = "[[parameters]] with `path` and `range`".to_owned();
             let found = "nothing to fit";
             binder.error("", found, "`parameters` with ranges", Some(hint));
         }
-        binder.limits_of(section);
+        let numbers = [("tolerance", section.tolerance), ("near", section.near)];
+        binder.search_limits("fit", section.budget, section.population, numbers);
         let window_s = [&section.from, &section.to].map(|time| time.as_ref().map(Time::si));
         binder.check_window(window_s, "fit");
         binder.check_channels(&section.channels);
@@ -40,8 +41,6 @@ impl StudyText {
             binder.check_test(test, &format!("fit.tests[{i}]"));
         }
         let n = self.section.parameters.len();
-        // 4 + ⌊3 ln n⌋
-        let wanted = 4 + (3.0 * ln(n.max(1) as f64)) as usize;
         let fit = Fit {
             misfit: section.objective.unwrap_or_default(),
             filter: section.filter.unwrap_or_default(),
@@ -50,10 +49,7 @@ impl StudyText {
             window_s,
             seed: self.section.seed.unwrap_or(0),
             budget: section.budget.unwrap_or(BUDGET * n.max(1) as u64),
-            population: match section.population {
-                Some(p) => p.min(MOST_CANDIDATES) as usize,
-                None => wanted.max(POPULATION),
-            },
+            population: population(section.population, n),
             tolerance: section.tolerance.unwrap_or(TOLERANCE),
             near: section.near,
         };
@@ -73,7 +69,7 @@ impl StudyText {
         overrides: &[String],
         resolver: Resolver,
     ) -> Result<Study, Diagnostics> {
-        self.bind_for(Some(test), base, overrides, resolver)
+        self.bind_for(Purpose::Fit(test), base, overrides, resolver)
     }
 
     /// A problem at a path of the study, such as `fit.channels[2].channel`.
@@ -90,20 +86,31 @@ impl StudyText {
     }
 }
 
+/// Candidates of a generation for this many parameters: as written, or 4 + ⌊3 ln n⌋ and at least the standard.
+pub(super) fn population(written: Option<u64>, parameters: usize) -> usize {
+    let wanted = 4 + (3.0 * ln(parameters.max(1) as f64)) as usize;
+    written.map_or(wanted.max(POPULATION), |p| p.min(MOST_CANDIDATES) as usize)
+}
+
 impl Binder<'_> {
-    /// Checks the ranges of the search's numbers.
-    fn limits_of(&mut self, section: &FitSection) {
-        let counts =
-            [("budget", section.budget, MOST_EVALUATIONS), ("population", section.population, MOST_CANDIDATES)];
+    /// Checks the ranges of the numbers of a search in this section of the study.
+    pub(super) fn search_limits<const N: usize>(
+        &mut self,
+        section: &str,
+        budget: Option<u64>,
+        population: Option<u64>,
+        numbers: [(&str, Option<f64>); N],
+    ) {
+        let counts = [("budget", budget, MOST_EVALUATIONS), ("population", population, MOST_CANDIDATES)];
         for (key, count, most) in counts {
             if let Some(count) = count.filter(|n| *n > most) {
-                let at = format!("fit.{key}");
+                let at = format!("{section}.{key}");
                 self.error(&at, format!("`{count}`"), format!("at most {most}"), None);
             }
         }
-        for (key, number) in [("tolerance", section.tolerance), ("near", section.near)] {
+        for (key, number) in numbers {
             if number.is_some_and(|x| !(x > 0.0 && x.is_finite())) {
-                let at = format!("fit.{key}");
+                let at = format!("{section}.{key}");
                 self.error(&at, "not a number above 0", "a number above 0", None);
             }
         }
@@ -157,7 +164,7 @@ impl Binder<'_> {
         self.check_weight(test.weight(), at);
     }
 
-    fn check_weight(&mut self, weight: f64, at: &str) {
+    pub(super) fn check_weight(&mut self, weight: f64, at: &str) {
         if !(weight > 0.0 && weight.is_finite()) {
             self.error(&format!("{at}.weight"), format!("a weight of {weight}"), "a number above zero", None);
         }

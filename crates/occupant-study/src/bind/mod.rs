@@ -6,11 +6,13 @@ mod ensemble;
 mod extremes;
 mod fit;
 mod law;
+mod optimise;
 mod parameters;
 mod table;
 
 pub use design::MOST_RUNS;
 use indexmap::IndexMap;
+pub use optimise::is_allowed;
 
 use super::Study;
 use super::copula::Copula;
@@ -31,17 +33,17 @@ impl StudyText {
     /// # Errors
     /// Everything that is wrong with the base's words; else everything that is wrong with the study.
     pub fn bind(&self, base: Draft, overrides: &[String], resolver: Resolver) -> Result<Study, Diagnostics> {
-        self.bind_for(None, base, overrides, resolver)
+        self.bind_for(Purpose::Sweep, base, overrides, resolver)
     }
 
     fn bind_for(
         &self,
-        test: Option<(&IndexMap<String, Value>, &str)>,
+        purpose: Purpose,
         mut base: Draft,
         overrides: &[String],
         resolver: Resolver,
     ) -> Result<Study, Diagnostics> {
-        let mut binder = Binder::new(self, test);
+        let mut binder = Binder::new(self, purpose);
         binder.prepare(&mut base, overrides)?;
         binder.base = Some(&base);
         let mut parameters = binder.parameters();
@@ -77,19 +79,29 @@ impl StudyText {
 /// Largest number of entries in a list of a study.
 const MOST_ENTRIES: usize = 1000;
 
+/// Use of a study.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Purpose<'a> {
+    /// A sweep of its design.
+    Sweep,
+    /// A fit to a test, which has its own scenario values at a path of the study.
+    Fit((&'a IndexMap<String, Value>, &'a str)),
+    /// An optimisation.
+    Optimise,
+}
+
 /// Work on a study text, with the problems found so far.
 pub(super) struct Binder<'a> {
     pub(super) text: &'a StudyText,
-    /// For a fit: the test's own scenario values, and their path in the study.
-    pub(super) test: Option<(&'a IndexMap<String, Value>, &'a str)>,
+    pub(super) purpose: Purpose<'a>,
     pub(super) base: Option<&'a Draft>,
     pub(super) changes: Vec<(String, String)>,
     pub(super) problems: Diagnostics,
 }
 
 impl<'a> Binder<'a> {
-    fn new(text: &'a StudyText, test: Option<(&'a IndexMap<String, Value>, &'a str)>) -> Self {
-        Binder { text, test, base: None, changes: Vec::new(), problems: Diagnostics::new() }
+    fn new(text: &'a StudyText, purpose: Purpose<'a>) -> Self {
+        Binder { text, purpose, base: None, changes: Vec::new(), problems: Diagnostics::new() }
     }
 
     /// The units of bare numbers in the study.
@@ -112,16 +124,18 @@ impl<'a> Binder<'a> {
         self.text.report(&mut self.problems, problem);
     }
 
-    /// The samples and the ensemble; a fit has neither.
+    /// The samples and the ensemble; a fit has neither, an optimisation no samples.
     fn varied(
         &mut self,
         base: &Draft,
         parameters: &mut Vec<Parameter>,
         resolver: Resolver,
     ) -> (Design, Option<Copula>, Option<Ensemble>) {
-        if self.test.is_some() {
+        if self.purpose != Purpose::Sweep {
             self.have_ends(parameters);
-            return (Design::Single, None, None);
+            let is_optimised = self.purpose == Purpose::Optimise;
+            let ensemble = is_optimised.then(|| ensemble::bind(self, base, parameters)).flatten();
+            return (Design::Single, None, ensemble);
         }
         let design = self.design(parameters, resolver);
         let copula = self.copula(parameters, &design);
@@ -137,7 +151,7 @@ impl<'a> Binder<'a> {
             return Err(std::mem::take(&mut self.problems));
         }
         self.set(base, &text.section.set, "set");
-        if let Some((set, at)) = self.test {
+        if let Purpose::Fit((set, at)) = self.purpose {
             self.set(base, set, at);
         }
         for assignment in overrides {
@@ -154,7 +168,7 @@ impl<'a> Binder<'a> {
     /// Refuses lists too long to be hand-written: each entry is compared with all others and with the base.
     fn refuse_many(&mut self) {
         let section = &self.text.section;
-        let fit = section.fit.as_ref();
+        let (fit, optimise) = (section.fit.as_ref(), section.optimise.as_ref());
         let perturbations = section.ensemble.as_ref().map_or(&[][..], |ensemble| &ensemble.perturbations);
         // a parameter of several paths counts as often
         let times = |paths: &Option<Vec<String>>| paths.as_ref().map_or(1, |paths| paths.len().max(1));
@@ -165,6 +179,8 @@ impl<'a> Binder<'a> {
             ("ensemble.perturbations", perturbations.iter().map(|each| times(&each.paths)).sum()),
             ("fit.channels", fit.map_or(0, |fit| fit.channels.len())),
             ("fit.tests", fit.map_or(0, |fit| fit.tests.len())),
+            ("optimise.goals", optimise.and_then(|of| of.goals.as_ref()).map_or(0, Vec::len)),
+            ("optimise.constraints", optimise.map_or(0, |of| of.constraints.len())),
         ];
         for (at, entries) in lists.into_iter().filter(|(_, entries)| *entries > MOST_ENTRIES) {
             self.error(at, format!("{entries} entries"), format!("at most {MOST_ENTRIES}"), None);

@@ -1,7 +1,7 @@
 //! The `[[parameters]]` of a study find their places and their laws.
 
-use super::Binder;
 use super::law::{Quantities, kind_of};
+use super::{Binder, Purpose};
 use crate::design::Design;
 use crate::law::{Distribution, Law};
 use crate::parameter::{Parameter, Target, si_unit};
@@ -157,7 +157,7 @@ impl Binder<'_> {
 
     /// Whether a table gives the values of all parameters.
     fn has_table(&self) -> bool {
-        self.test.is_none() && matches!(self.text.section.design, Some(Design::Table { .. }))
+        self.purpose == Purpose::Sweep && matches!(self.text.section.design, Some(Design::Table { .. }))
     }
 
     pub(super) fn law(

@@ -10,6 +10,7 @@
 
 mod bounds;
 mod cma;
+mod constrained;
 mod descents;
 mod profile;
 mod quadratic;
@@ -21,6 +22,7 @@ use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 pub use bounds::fold;
 pub use cma::{Cma, Ending};
+pub use constrained::{Rank, Trial, Try, descend_within, lower};
 pub use descents::{Descent, Descents, Global, descend};
 pub use profile::{End, Profiles, profile};
 pub use refine::refine;

@@ -53,8 +53,14 @@ const FIT: &Holds = &Holds {
     results: &["fit.json", "fitted.toml", "history.parquet", "history.csv"],
     folders: &[("fitted", ".toml"), ("plots", ".svg")],
 };
+const OPTIMUM: &Holds = &Holds {
+    word: "optimisation",
+    manifest: "optimise.json",
+    results: &["optimum.json", "best.toml", "history.parquet", "history.csv", "report.html"],
+    folders: &[],
+};
 
-/// The folder of a sweep, or of a fit.
+/// The folder of a sweep, of a fit, or of an optimisation.
 #[derive(Clone, Debug)]
 pub struct Folder {
     /// The path.
@@ -82,6 +88,11 @@ impl Folder {
     /// The folder of a fit at this path, existing or not.
     pub fn of_fit(path: &Path) -> Self {
         Folder { path: path.to_owned(), holds: FIT }
+    }
+
+    /// The folder of an optimisation at this path, existing or not.
+    pub fn of_optimum(path: &Path) -> Self {
+        Folder { path: path.to_owned(), holds: OPTIMUM }
     }
 
     fn manifest_path(&self) -> PathBuf {

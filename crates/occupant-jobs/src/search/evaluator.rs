@@ -1,18 +1,17 @@
 //! Values of candidates: from the journal if it has them, otherwise by runs on all threads, in lanes.
 //!
-//! An evaluation is a candidate with all experiments; evaluations are counted from 0, the base scenario, in the order
-//! of the search. Run e of evaluation i is row i·E + e of the journal. A row is appended when a run ends; runs that a
+//! An evaluation is a candidate with all its runs; evaluations are counted from 0, the base scenario, in the order of the
+//! search. Run e of evaluation i is row i·E + e of the journal. A row is appended when a run ends; runs that a
 //! killed process had in progress are computed again.
 
 use std::collections::BTreeMap;
 
 use occupant_core::model::Model;
-use occupant_core::results::channel::Series;
 use occupant_scenario::ending::Ending;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source};
 use occupant_study::search::Stage;
 
-use super::{Experiment, Fitting, Progress};
+use super::{Objective, Progress};
 use crate::base::{Failure, Interrupt};
 use crate::files::study_folder::{Checksums, Folder, Journal, JournalWriter, Problem, Row, Shard, Status};
 use crate::sweep::words::tell_damaged;
@@ -30,8 +29,10 @@ pub struct Record {
     pub at: Option<Vec<f64>>,
     /// Score; lower is better.
     pub score: f64,
-    /// Misfit of each target by experiment; empty if it could not be run.
+    /// What counts of each of its runs; empty if it could not be run.
     pub parts: Vec<f64>,
+    /// Caveats on that, as in the table of a sweep.
+    pub caveats: String,
     /// Reason why it could not be run.
     pub reason: Option<String>,
     /// Wall time of its runs, s. It differs from fit to fit.
@@ -41,8 +42,8 @@ pub struct Record {
 }
 
 /// Evaluates and stores candidates.
-pub struct Evaluator<'a> {
-    fitting: &'a Fitting,
+pub struct Evaluator<'a, O: Objective> {
+    objective: &'a O,
     engine: &'a Engine,
     interrupt: &'a Interrupt,
     known: BTreeMap<u64, Row>,
@@ -52,20 +53,20 @@ pub struct Evaluator<'a> {
     pub records: Vec<Record>,
 }
 
-impl<'a> Evaluator<'a> {
+impl<'a, O: Objective> Evaluator<'a, O> {
     /// Reads the journal. The lock of the folder must be held.
     ///
     /// # Errors
     /// An error of the operating system; a journal of something else.
     pub fn new(
-        fitting: &'a Fitting,
+        objective: &'a O,
         (folder, sums): (&Folder, &Checksums),
         sha256: &str,
         engine: &'a Engine,
         interrupt: &'a Interrupt,
         progress: Progress,
     ) -> Result<Self, Failure> {
-        let samples = fitting.manifest.samples;
+        let samples = objective.manifest().samples;
         let (journal, aside) = Journal::mend(folder, (sha256, samples), sums)?;
         tell_damaged(&aside);
         let mut known = BTreeMap::new();
@@ -73,9 +74,9 @@ impl<'a> Evaluator<'a> {
             known.insert(row.index, row);
             Ok(())
         })?;
-        let progress = progress.from(known.len() as u64 / fitting.experiments.len() as u64);
+        let progress = progress.from(known.len() as u64 / objective.runs());
         Ok(Evaluator {
-            fitting,
+            objective,
             engine,
             interrupt,
             known,
@@ -108,10 +109,10 @@ impl<'a> Evaluator<'a> {
     }
 
     fn evaluate(&mut self, stage: Option<Stage>, candidates: Vec<Option<Vec<f64>>>) -> Result<Vec<f64>, Failure> {
-        let experiments = self.fitting.experiments.len() as u64;
-        let first = self.records.len() as u64 * experiments;
-        let rows = first..first + candidates.len() as u64 * experiments;
-        let batch = Batch { fitting: self.fitting, first, candidates: &candidates };
+        let runs = self.objective.runs();
+        let first = self.records.len() as u64 * runs;
+        let rows = first..first + candidates.len() as u64 * runs;
+        let batch = Batch { objective: self.objective, first, candidates: &candidates };
         let missing: Vec<u64> = rows.filter(|index| !self.known.contains_key(index)).collect();
         let (journal, known) = (&mut self.journal, &mut self.known);
         self.engine.run(&batch, missing.into_iter(), &self.interrupt.asked, |row| {
@@ -121,16 +122,25 @@ impl<'a> Evaluator<'a> {
         })?;
         let before = self.records.len();
         for (i, candidate) in candidates.iter().enumerate() {
-            let rows: Option<Vec<&Row>> =
-                (0..experiments).map(|e| self.known.get(&(first + i as u64 * experiments + e))).collect();
+            let rows: Option<Vec<&Row>> = (0..runs).map(|e| self.known.get(&(first + i as u64 * runs + e))).collect();
             let done = self.records.len();
-            let kept = || format!("{done} evaluations are kept; run the same command again to resume the fit");
+            let word = self.objective.word();
+            let kept = || format!("{done} evaluations are kept; run the same command again to resume the {word}");
             let rows = rows.ok_or_else(|| Interrupt::failure(&kept()))?;
-            self.records.push(record(self.fitting, stage, candidate, &rows)?);
+            self.records.push(record(self.objective, stage, candidate, &rows)?);
         }
         let new = &self.records[before..];
-        self.progress.see(stage, new);
+        self.progress.see(stage, new, &|score| self.objective.told(score));
         Ok(new.iter().map(|r| r.score).collect())
+    }
+
+    /// The failure of a search in which no candidate could be run.
+    pub fn none_could_be_run(&self) -> Failure {
+        let reason = self.records.iter().rev().find_map(|r| r.reason.clone()).unwrap_or_default();
+        Failure::broke_off(format!(
+            "none of {} candidates could be run; the last one: {reason}\n = help: narrow the parameter ranges, and try the base scenario with `occupant run`",
+            self.records.len()
+        ))
     }
 
     /// Syncs everything to disk and returns the records.
@@ -144,25 +154,28 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// Evaluation of a candidate from the rows of all experiments.
-fn record(
-    fitting: &Fitting,
+/// Evaluation of a candidate from the rows of all its runs.
+fn record<O: Objective>(
+    objective: &O,
     stage: Option<Stage>,
     candidate: &Option<Vec<f64>>,
     rows: &[&Row],
 ) -> Result<Record, Failure> {
     let mut parts = Vec::new();
     let mut reason = None;
+    let mut caveats: Vec<&str> = Vec::new();
     for row in rows {
-        let (at, misfits) = row.cells.split_at(fitting.bounds.len().min(row.cells.len()));
+        let (at, values) = row.cells.split_at(objective.bounds().len().min(row.cells.len()));
         refuse_other(row.index, at, candidate.as_deref().unwrap_or(&[]))?;
-        parts.extend(misfits.iter().filter_map(Cell::number));
+        parts.extend(values.iter().filter_map(Cell::number));
+        let new = row.caveats.split_whitespace().filter(|word| !caveats.contains(word)).collect::<Vec<_>>();
+        caveats.extend(new);
         if row.status != Status::Completed {
             reason.get_or_insert_with(|| row.reason.clone());
         }
     }
     let score = match reason {
-        None => fitting.score(&parts).min(0.1 * WORST),
+        None => objective.score(&parts, !caveats.is_empty()).min(0.1 * WORST),
         Some(_) => {
             parts.clear();
             WORST
@@ -173,6 +186,7 @@ fn record(
         at: candidate.clone(),
         score,
         parts,
+        caveats: caveats.join(" "),
         reason,
         wall_time_s: rows.iter().map(|r| r.wall_time_s).sum(),
         kernel: rows.last().map_or(String::new(), |r| r.kernel.clone()),
@@ -192,52 +206,50 @@ fn refuse_other(index: u64, found: &[Cell], asked: &[f64]) -> Result<(), Failure
 }
 
 /// Candidates in progress.
-struct Batch<'a> {
-    fitting: &'a Fitting,
+struct Batch<'a, O> {
+    objective: &'a O,
     first: u64,
     candidates: &'a [Option<Vec<f64>>],
 }
 
-impl Batch<'_> {
-    /// Candidate and experiment of a run.
-    fn place(&self, index: u64) -> (Option<&[f64]>, &Experiment) {
-        let experiments = self.fitting.experiments.len() as u64;
+impl<O: Objective> Batch<'_, O> {
+    /// Candidate of a run, its values, and the number of the run among those of the candidate.
+    fn place(&self, index: u64) -> (Option<&[f64]>, Option<Vec<f64>>, u64) {
+        let runs = self.objective.runs();
         let at = index - self.first;
-        let candidate = &self.candidates[(at / experiments) as usize];
-        (candidate.as_deref(), &self.fitting.experiments[(at % experiments) as usize])
+        let candidate = self.candidates[(at / runs) as usize].as_deref();
+        (candidate, candidate.map(|at| self.objective.values(at)), at % runs)
     }
 }
 
-impl Source for Batch<'_> {
-    type Recorder = Series;
+impl<O: Objective> Source for Batch<'_, O> {
+    type Recorder = O::Recorder;
     type Row = Row;
     type Error = Failure;
 
-    fn begin(&self, index: u64) -> Result<(Model, Series), NotBegun<Failure>> {
-        let (candidate, experiment) = self.place(index);
-        let values = candidate.map(|at| self.fitting.values(at));
-        Ok((experiment.model_of(values.as_deref())?, Series::new(experiment.recorded.clone())))
+    fn begin(&self, index: u64) -> Result<(Model, O::Recorder), NotBegun<Failure>> {
+        let (_, values, run) = self.place(index);
+        Ok(self.objective.begin(run, values.as_deref())?)
     }
 
-    fn end(&self, run: Finished<Series>) -> Result<Row, Failure> {
-        let (candidate, experiment) = self.place(run.index);
+    fn end(&self, run: Finished<O::Recorder>) -> Result<Row, Failure> {
+        let (candidate, values, number) = self.place(run.index);
         let cells = match candidate {
             Some(at) => at.iter().map(|u| Cell::Number(*u)).collect(),
-            None => vec![Cell::Absent; self.fitting.bounds.len()],
+            None => vec![Cell::Absent; self.objective.bounds().len()],
         };
         let mut row = Row::of(&run, cells);
-        let misfits = match (run.ending, run.ran) {
-            (Ending::Completed, Some(ran)) => {
-                let values = candidate.map(|at| self.fitting.values(at));
-                let corrections = self.fitting.corrections(values.as_deref());
-                experiment.misfits(self.fitting.fit.misfit, &ran.recorder, &corrections)
-            }
-            // what it would be compared with means nothing
+        let counts = match (run.ending, run.ran) {
+            (Ending::Completed, Some(ran)) => self.objective.end(number, values.as_deref(), ran),
+            // what counts of it means nothing
             (ending @ Ending::OutOfBalance(_), _) => Err(ending.reason().unwrap_or_default()),
             _ => return Ok(row),
         };
-        match misfits {
-            Ok(parts) => row.cells.extend(parts.into_iter().map(Cell::Number)),
+        match counts {
+            Ok((parts, caveats)) => {
+                row.cells.extend(parts.into_iter().map(Cell::Number));
+                row.warn_of(&caveats);
+            }
             Err(reason) => (row.status, row.reason) = (Status::Failed, reason),
         }
         Ok(row)

@@ -1,9 +1,9 @@
-//! All candidates of a fit in the order of the search, as a table: history.parquet and history.csv.
+//! All candidates of a search in the order of the search, as a table: history.parquet and history.csv.
 
 use std::path::PathBuf;
 
 use super::progress::words_of;
-use super::{Fitting, Record};
+use super::{Objective, Record};
 use crate::base::{Existing, Failure};
 use crate::files::study_folder::{Column, Folder, Manifest, Role, Row, Status, StudyTable};
 use occupant_files::table::{Cell, Form};
@@ -13,38 +13,34 @@ use occupant_study::search::Stage;
 ///
 /// # Errors
 /// An error of the operating system.
-pub fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<Vec<PathBuf>, Failure> {
+pub fn write<O: Objective>(folder: &Folder, objective: &O, records: &[Record]) -> Result<Vec<PathBuf>, Failure> {
     let files = [("history.parquet", Form::Parquet), ("history.csv", Form::Csv)];
     let files = files.map(|(name, form)| (folder.path.join(name), form));
-    let mut table = StudyTable::create(files, Existing::Replace, &manifest(fitting))?;
-    rows(fitting, records).iter().try_for_each(|row| table.row(row))?;
+    let mut table = StudyTable::create(files, Existing::Replace, &manifest(objective))?;
+    rows(objective, records).iter().try_for_each(|row| table.row(row))?;
     table.publish()
 }
 
-fn manifest(fitting: &Fitting) -> Manifest {
+fn manifest<O: Objective>(objective: &O) -> Manifest {
     let column = |name: String, unit: &str, role| Column { name, unit: unit.to_owned(), role };
     let one_if_empty = |unit: &'static str| if unit.is_empty() { "1" } else { unit };
-    let mut manifest = fitting.manifest.clone();
+    let mut manifest = objective.manifest().clone();
     manifest.columns = vec![
         column("stage".to_owned(), "", Role::InputText),
         column("descent".to_owned(), "1", Role::Input),
         column("generation".to_owned(), "1", Role::Input),
     ];
-    let parameters = fitting.parameters.iter();
+    let parameters = objective.parameters().iter();
     manifest.columns.extend(parameters.map(|p| column(format!("input.{}", p.name), one_if_empty(p.unit), Role::Input)));
     for name in ["score", "best"] {
         manifest.columns.push(column(name.to_owned(), "1", Role::Figure));
     }
-    manifest.columns.extend(fitting.targets().map(|(test, target)| {
-        let name = format!("{}.{}", fitting.tests[*test].name, target.channel.name);
-        column(name, "1", Role::Figure)
-    }));
+    manifest.columns.extend(objective.columns());
     manifest
 }
 
-fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
+fn rows<O: Objective>(objective: &O, records: &[Record]) -> Vec<Row> {
     let mut best = f64::INFINITY;
-    let targets = fitting.targets().count();
     let row = |(index, record): (usize, &Record)| {
         let (stage, _) = words_of(record.stage);
         let counted = match record.stage {
@@ -55,13 +51,12 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
         let mut cells = vec![Cell::Text(stage.into())];
         cells.extend(counted.map(number));
         match &record.at {
-            Some(at) => cells.extend(fitting.values(at).into_iter().map(Cell::Number)),
-            None => cells.extend(vec![Cell::Absent; fitting.bounds.len()]),
+            Some(at) => cells.extend(objective.values(at).into_iter().map(Cell::Number)),
+            None => cells.extend(vec![Cell::Absent; objective.bounds().len()]),
         }
         best = if record.at.is_some() { record.score.min(best) } else { best };
         cells.extend([record.score, best].map(Cell::finite));
-        let parts = (0..targets).map(|i| record.parts.get(i).copied().unwrap_or(f64::NAN));
-        cells.extend(parts.map(number));
+        cells.extend(objective.row(&record.parts).into_iter().map(number));
         Row {
             index: index as u64,
             status: match record.reason {
@@ -69,7 +64,7 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
                 Some(_) => Status::Failed,
             },
             reason: record.reason.clone().unwrap_or_default(),
-            caveats: String::new(),
+            caveats: record.caveats.clone(),
             cells,
             wall_time_s: record.wall_time_s,
             kernel: record.kernel.clone(),

@@ -1,16 +1,16 @@
-//! Progress of a fit: without a terminal a line for each stage, and now and then one when the score has improved.
+//! Progress of a search: without a terminal a line for each stage, and now and then one when the score has improved.
 
 use std::time::Duration;
 
 use occupant_study::search::Stage;
 
-use super::{Record, WORST};
+use super::Record;
 use crate::base::progress::{Runs, Show};
 
 /// Interval of progress lines without a terminal, besides one per stage.
 const LINE_EVERY: Duration = Duration::from_secs(2);
 
-/// Progress of a fit.
+/// Progress of a search.
 #[derive(Debug)]
 pub struct Progress {
     runs: Runs,
@@ -34,8 +34,8 @@ impl Progress {
         Progress { runs: self.runs.from(before), ..self }
     }
 
-    /// Records a batch.
-    pub fn see(&mut self, stage: Option<Stage>, records: &[Record]) {
+    /// Records a batch; `told` gives the words of a score.
+    pub fn see(&mut self, stage: Option<Stage>, records: &[Record], told: &dyn Fn(f64) -> String) {
         self.evaluations += records.len() as u64;
         let least = records.iter().map(|r| r.score).fold(f64::INFINITY, f64::min);
         if stage.is_some() {
@@ -45,13 +45,13 @@ impl Progress {
         if let Some(bar) = self.runs.bar() {
             bar.set_length(self.budget.max(self.evaluations));
             bar.set_position(self.evaluations);
-            bar.set_message(format!(", {words}: score {:.5}", self.best));
+            bar.set_message(format!(", {words}: {}", told(self.best)));
         } else if stage.is_none() {
-            self.runs.say(&format!("base scenario: {}", score(least)));
+            self.runs.say(&format!("base scenario: {}", told(least)));
         } else {
             if name != self.stage || (self.best < self.said && self.runs.is_line_due()) {
                 let far = self.runs.words(self.evaluations);
-                self.runs.say(&format!("{far}, {words}: {}", score(self.best)));
+                self.runs.say(&format!("{far}, {words}: {}", told(self.best)));
                 self.said = self.best;
             }
             self.stage = name;
@@ -62,11 +62,6 @@ impl Progress {
     pub fn end(&self) {
         self.runs.end();
     }
-}
-
-/// A score as text.
-fn score(score: f64) -> String {
-    if score < WORST { format!("score {score:.5}") } else { "no completed run yet".to_owned() }
 }
 
 /// Name of a stage, and its description.

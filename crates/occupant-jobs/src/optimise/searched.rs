@@ -1,0 +1,86 @@
+//! The search from its first candidate to the neighbours of the best.
+
+use occupant_study::Optimise;
+use occupant_study::search::{Descents, Global, Point, Rank, Stage, Trial, descend_within, lower};
+
+use super::Optimising;
+use crate::base::Failure;
+use crate::search::{Evaluator, Objective, Record};
+
+/// Distance of a neighbour, as a fraction of the range.
+pub const STEP: f64 = 0.02;
+/// Least number of times that all neighbours are looked at, if each time one is better.
+const LOOKS: u64 = 8;
+
+/// Largest number of candidates of a search in `n` parameters, with the base scenario.
+pub fn most_candidates(optimise: &Optimise, n: usize) -> u64 {
+    let looks = LOOKS * 2 * n as u64;
+    // at least one generation is computed
+    1 + optimise.budget.max(optimise.population as u64) + optimise.budget.max(looks)
+}
+
+/// The best candidate and its neighbours.
+pub struct Answer {
+    /// The base scenario.
+    pub before: Record,
+    /// The descents; their values are those of the Lagrangian.
+    pub global: Global,
+    /// The best candidate.
+    pub best: Point,
+    /// What it shows.
+    pub trial: Trial,
+    /// What the neighbours below and above in each parameter show, none beyond a bound; nothing if the budget ended while a
+    /// neighbour was still better.
+    pub neighbours: Option<Vec<[Option<Trial>; 2]>>,
+}
+
+/// Searches, and looks at both neighbours in each parameter until none is better.
+///
+/// # Errors
+/// A signal, a full disk, an optimisation in which no candidate could be run.
+pub fn search(of: &Optimising, evaluator: &mut Evaluator<'_, Optimising>) -> Result<Answer, Failure> {
+    let before = evaluator.base()?;
+    let how = Descents {
+        start: of.start(),
+        seed: of.optimise.seed,
+        evaluations: of.optimise.budget,
+        population: of.optimise.population,
+        tolerance: of.optimise.tolerance,
+    };
+    let mut evaluate = |stage: Stage, points: &[Vec<f64>]| -> Result<Vec<Trial>, Failure> {
+        let from = evaluator.records.len();
+        evaluator.scores(stage, points)?;
+        Ok(evaluator.records[from..].iter().map(|record| of.trial(record)).collect())
+    };
+    let (global, best, trial) = descend_within(&how, &mut evaluate)?;
+    let mut found = (best, trial);
+    let mut left = how.evaluations.max(LOOKS * 2 * how.start.len() as u64);
+    let neighbours = loop {
+        let centre = found.0.clone();
+        let places = around(&centre.at);
+        let points: Vec<Vec<f64>> = places.iter().flatten().flatten().cloned().collect();
+        let Some(rest) = left.checked_sub(points.len() as u64) else { break None };
+        left = rest;
+        let trials = evaluate(Stage::Scan, &points)?;
+        lower(&mut found, &points, &trials);
+        if found.0 == centre {
+            let mut trials = trials.into_iter();
+            let mut shown = |place: &Option<Vec<f64>>| place.as_ref().and_then(|_| trials.next());
+            break Some(places.iter().map(|[below, above]| [shown(below), shown(above)]).collect());
+        }
+    };
+    let (best, trial) = found;
+    if let Rank::Failed = trial.rank() {
+        return Err(evaluator.none_could_be_run());
+    }
+    Ok(Answer { before, global, best, trial, neighbours })
+}
+
+/// The neighbours of a point below and above in each coordinate; none beyond a bound.
+fn around(at: &[f64]) -> Vec<[Option<Vec<f64>>; 2]> {
+    let neighbour = |i: usize, step: f64| {
+        let u = (at[i] + step).clamp(0.0, 1.0);
+        (u != at[i]).then(|| at.iter().enumerate().map(|(j, x)| if i == j { u } else { *x }).collect())
+    };
+    (0..at.len()).map(|i| [neighbour(i, -STEP), neighbour(i, STEP)]).collect()
+}

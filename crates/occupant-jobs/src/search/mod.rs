@@ -1,0 +1,91 @@
+//! What searches have in common: candidates that are run, journaled, and told about.
+//!
+//! ```text
+//! search ⇄ Evaluator (journal, threads, lanes) ⇄ Objective (models, values of a run, score) ─ records ─ history
+//! ```
+//!
+//! A search requests values of whole generations; the evaluator runs those that the journal lacks. Both depend only on the
+//! study, its inputs and the program, so a killed search reaches the same answer when it is resumed.
+
+pub mod evaluator;
+pub mod history;
+pub mod progress;
+
+pub use evaluator::{Evaluator, Record, WORST};
+pub use progress::Progress;
+
+use occupant_core::model::Model;
+use occupant_core::results::recorder::Recorder;
+use occupant_core::results::summary::Caveat;
+use occupant_scenario::Diagnostics;
+use occupant_study::engine::Ran;
+use occupant_study::{Bounds, Parameter};
+
+use crate::files::study_folder::{Column, Manifest};
+
+/// What the candidates of a search are runs of, and what counts.
+pub trait Objective: Sync {
+    /// Receives the results of a run.
+    type Recorder: Recorder + Send;
+
+    /// The search, as in "resume the fit".
+    fn word(&self) -> &'static str;
+
+    /// Manifest of the folder.
+    fn manifest(&self) -> &Manifest;
+
+    /// The parameters.
+    fn parameters(&self) -> &[Parameter];
+
+    /// Bounds of the parameters.
+    fn bounds(&self) -> &[Bounds];
+
+    /// Runs per candidate.
+    fn runs(&self) -> u64;
+
+    /// Model and recorder of a run with these values of all parameters, or of the base scenario.
+    ///
+    /// # Errors
+    /// Problems of the scenario then.
+    fn begin(&self, run: u64, values: Option<&[f64]>) -> Result<(Model, Self::Recorder), Diagnostics>;
+
+    /// What counts of a completed run, the same number of values for each, and the caveats on them.
+    ///
+    /// # Errors
+    /// The reason why nothing does.
+    fn end(
+        &self,
+        run: u64,
+        values: Option<&[f64]>,
+        ran: Ran<Self::Recorder>,
+    ) -> Result<(Vec<f64>, Vec<Caveat>), String>;
+
+    /// Score from the values of all runs, lower is better; `has_caveats`: any of them has caveats.
+    fn score(&self, parts: &[f64], has_caveats: bool) -> f64;
+
+    /// A score as words.
+    fn told(&self, score: f64) -> String;
+
+    /// Columns of the history that [`Objective::row`] fills, besides score and parameters.
+    fn columns(&self) -> Vec<Column>;
+
+    /// Values of those columns from the values of all runs of a candidate; NaN where missing.
+    fn row(&self, parts: &[f64]) -> Vec<f64>;
+
+    /// Values of the parameters, SI, at a point of the unit cube.
+    fn values(&self, at: &[f64]) -> Vec<f64> {
+        self.bounds().iter().zip(at).map(|(b, u)| b.value(*u)).collect()
+    }
+
+    /// Start of the search: the base scenario's values where they are between the bounds, else the middle.
+    fn start(&self) -> Vec<f64> {
+        let start = |(parameter, bounds): (&Parameter, &Bounds)| match parameter.nominal() {
+            occupant_study::Value::Number(x) => {
+                let u = bounds.part(x);
+                if (0.0..=1.0).contains(&u) { u } else { 0.5 }
+            }
+            _ => 0.5,
+        };
+        self.parameters().iter().zip(self.bounds()).map(start).collect()
+    }
+}
