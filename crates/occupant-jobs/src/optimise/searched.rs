@@ -7,8 +7,10 @@ use super::Optimising;
 use crate::base::Failure;
 use crate::search::{Evaluator, Objective, Record};
 
-/// Distance of a neighbour, as a fraction of the range.
+/// Distance of a neighbour that is reported, as a fraction of the range.
 pub const STEP: f64 = 0.02;
+/// The same while the search still moves to better ones.
+const STEPS: [f64; 3] = [0.02, 0.005, 0.00125];
 /// Least number of times that all neighbours are looked at, if each time one is better.
 const LOOKS: u64 = 8;
 
@@ -55,18 +57,23 @@ pub fn search(of: &Optimising, evaluator: &mut Evaluator<'_, Optimising>) -> Res
     let (global, best, trial) = descend_within(&how, &mut evaluate)?;
     let mut found = (best, trial);
     let mut left = how.evaluations.max(LOOKS * 2 * how.start.len() as u64);
+    let mut looks = STEPS.iter().copied().chain([STEP]).peekable();
     let neighbours = loop {
-        let centre = found.0.clone();
-        let places = around(&centre.at);
+        let (centre, step) = (found.0.clone(), looks.peek().copied().unwrap_or(STEP));
+        let places = around(&centre.at, step);
         let points: Vec<Vec<f64>> = places.iter().flatten().flatten().cloned().collect();
         let Some(rest) = left.checked_sub(points.len() as u64) else { break None };
         left = rest;
         let trials = evaluate(Stage::Scan, &points)?;
         lower(&mut found, &points, &trials);
+        // the last look shows the neighbours of what is reported
         if found.0 == centre {
-            let mut trials = trials.into_iter();
-            let mut shown = |place: &Option<Vec<f64>>| place.as_ref().and_then(|_| trials.next());
-            break Some(places.iter().map(|[below, above]| [shown(below), shown(above)]).collect());
+            _ = looks.next();
+            if looks.peek().is_none() {
+                let mut trials = trials.into_iter();
+                let mut shown = |place: &Option<Vec<f64>>| place.as_ref().and_then(|_| trials.next());
+                break Some(places.iter().map(|[below, above]| [shown(below), shown(above)]).collect());
+            }
         }
     };
     let (best, trial) = found;
@@ -76,11 +83,11 @@ pub fn search(of: &Optimising, evaluator: &mut Evaluator<'_, Optimising>) -> Res
     Ok(Answer { before, global, best, trial, neighbours })
 }
 
-/// The neighbours of a point below and above in each coordinate; none beyond a bound.
-fn around(at: &[f64]) -> Vec<[Option<Vec<f64>>; 2]> {
+/// The neighbours of a point below and above in each coordinate, this far away; none beyond a bound.
+fn around(at: &[f64], step: f64) -> Vec<[Option<Vec<f64>>; 2]> {
     let neighbour = |i: usize, step: f64| {
         let u = (at[i] + step).clamp(0.0, 1.0);
         (u != at[i]).then(|| at.iter().enumerate().map(|(j, x)| if i == j { u } else { *x }).collect())
     };
-    (0..at.len()).map(|i| [neighbour(i, -STEP), neighbour(i, STEP)]).collect()
+    (0..at.len()).map(|i| [neighbour(i, -step), neighbour(i, step)]).collect()
 }
