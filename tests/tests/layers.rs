@@ -99,7 +99,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
             "measured",
         ],
     ),
-    ("occupant-pictures", &["font", "svg", "format", "body", "view", "plot", "gltf", "film", "html"]),
+    ("occupant-pictures", &["font", "svg", "format", "body", "mesh", "view", "plot", "gltf", "film", "scene", "html"]),
     (
         "occupant-jobs",
         &[

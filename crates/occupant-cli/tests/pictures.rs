@@ -141,6 +141,74 @@ fn a_film_has_a_frame_for_each_time() {
     assert_eq!(code(&answer(folder.path(), &["view", "run.mcap", "--each", "frames", "--times", "0,1,2 ms"])), 2);
 }
 
+/// One time gives one picture, several a sheet of three columns; each camera gives another picture, the same one twice.
+#[test]
+fn pictures_in_three_dimensions_have_their_size_and_camera() {
+    let folder = folder_with_run();
+    let camera = "eye = [2.5, 1.5, -0.8]\ntarget = [0.0, 0, -0.3]\nfield_of_view = 35\n";
+    fs::write(folder.path().join("aside.toml"), camera).expect("written");
+    let picture = |more: &[&str]| {
+        let words = [&["view", "run.mcap", "--3d", "--size", "160x90", "-o", "v.png", "--force"], more].concat();
+        let output = answer(folder.path(), &words);
+        assert_eq!((code(&output), err(&output)), (0, "wrote v.png\n".to_owned()), "{more:?}");
+        fs::read(folder.path().join("v.png")).unwrap()
+    };
+    let side = |png: &[u8], at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
+    let cameras = ["vehicle", "ground", "chase", "driver", "aside.toml"];
+    let mut all: Vec<Vec<u8>> = cameras.iter().map(|camera| picture(&["--times", "1 ms", "--camera", camera])).collect();
+    assert_eq!(all[0], picture(&["--times", "1 ms"]));
+    assert_eq!([side(&all[0], 16), side(&all[0], 20)], [160, 90]);
+    all.sort();
+    all.dedup();
+    assert_eq!(all.len(), cameras.len());
+    let sheet = picture(&["--times", "0,1,2,3 ms"]);
+    assert_eq!([side(&sheet, 16), side(&sheet, 20)], [480, 180]);
+    let words = ["view", "run.mcap", "--3d", "--size", "160x90", "-o", "v.gif", "--slow-motion", "200", "--freeze", "1 ms"];
+    assert_eq!(code(&answer(folder.path(), &words)), 0);
+    let bytes = fs::read(folder.path().join("v.gif")).unwrap();
+    let mut film = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+    let mut frames = 0;
+    while film.read_next_frame().unwrap().is_some() {
+        frames += 1;
+    }
+    // 50 frames at rest
+    assert_eq!(frames, 197 + 50);
+}
+
+#[test]
+fn wrong_cameras_are_answered() {
+    let folder = folder_with_run();
+    let camera = |text: &str| fs::write(folder.path().join("c.toml"), text).expect("written");
+    let refused = |more: &[&str], said: &str| {
+        let output = answer(folder.path(), &[&["view", "run.mcap", "-o", "v.png"], more].concat());
+        assert_eq!(code(&output), 2, "{more:?}");
+        assert!(err(&output).contains(said), "{more:?}: {}", err(&output));
+    };
+    refused(&["--3d", "--camera", "grund"], "is `ground` meant?");
+    refused(&["--3d", "--camera", "none.toml"], "cannot be read");
+    refused(&["--3d", "--size", "0x90"], "16 to 8192");
+    refused(&["--3d", "--size", "big"], "such as 1920x1080");
+    refused(&["--3d", "--views", "top"], "cannot be used with");
+    refused(&["--camera", "ground"], "--3d");
+    for (text, said) in [
+        ("eye = [1, 2, 3]\ntarget = [1, 2, 3]", "its own eye"),
+        ("eye = [nan, 2, 3]\ntarget = [1, 2, 3]", "three numbers"),
+        ("eye = [1, 2]\ntarget = [1, 2, 3]", "three numbers"),
+        ("target = [1, 2, 3]", "`eye` is no place"),
+        ("eye = [1, 2, 3]\ntarget = [1, 2, 0]\nfield_of_view = 0", "from 1 to 170"),
+        ("eye = [1, 2, 3]\ntarget = [1, 2, 0]\nframe = \"moon\"", "\"vehicle\" or \"space\""),
+        ("eye = [1, 2, 3]\ntarget = [1, 2, 0]\nzoom = 3", "`zoom` is no key"),
+    ] {
+        camera(text);
+        refused(&["--3d", "--camera", "c.toml"], said);
+        refused(&["--3d", "--camera", "c.toml"], "c.toml");
+    }
+    let output = answer(folder.path(), &["view", "run.mcap", "--3d", "-o", "v.svg"]);
+    assert!(code(&output) == 2 && err(&output).contains("made of pixels"), "{}", err(&output));
+    let output = answer(folder.path(), &["view", "case.toml", "--3d", "-o", "v.png"]);
+    assert!(code(&output) == 2 && err(&output).contains("--3d needs a run"), "{}", err(&output));
+}
+
 #[test]
 fn wrong_words_for_a_view_are_answered() {
     let folder = folder_with_run();

@@ -34,8 +34,34 @@ pub enum Film {
     Mp4,
 }
 
-/// Draws frame n as SVG.
-pub type Draw<'a> = &'a (dyn Fn(usize) -> String + Sync);
+/// A frame.
+pub enum Frame {
+    /// As SVG.
+    Drawing(String),
+    /// As pixels.
+    Pixels(Pixmap),
+}
+
+/// Makes frame n.
+pub type Draw<'a> = &'a (dyn Fn(usize) -> Result<Frame, String> + Sync);
+
+impl Frame {
+    /// Its bytes as PNG; a drawing has `pixels` pixels per user unit.
+    ///
+    /// # Errors
+    /// A drawing that cannot be rendered.
+    pub fn png(self, pixels: f64) -> Result<Vec<u8>, String> {
+        let pixmap = self.rendered(pixels)?;
+        pixmap.encode_png().map_err(|e| format!("the picture cannot be written as PNG: {e}"))
+    }
+
+    pub(crate) fn rendered(self, pixels: f64) -> Result<Pixmap, String> {
+        match self {
+            Frame::Drawing(svg) => render(&svg, pixels),
+            Frame::Pixels(pixmap) => Ok(pixmap),
+        }
+    }
+}
 
 impl Film {
     /// The kind for the file's extension; none for another.
@@ -65,7 +91,7 @@ fn each<F: Send>(
     for first in (0..count).step_by(AT_ONCE) {
         let some = first..count.min(first + AT_ONCE);
         let frames: Result<Vec<F>, String> =
-            some.into_par_iter().map(|frame| render(&draw(frame), PIXELS).map(&make)).collect();
+            some.into_par_iter().map(|frame| draw(frame)?.rendered(PIXELS).map(&make)).collect();
         frames?.into_iter().try_for_each(&mut take)?;
     }
     Ok(())
@@ -73,7 +99,7 @@ fn each<F: Send>(
 
 fn gif(count: usize, draw: Draw<'_>) -> Result<Vec<u8>, String> {
     let failed = |error: gif::EncodingError| format!("the film cannot be written as GIF: {error}");
-    let some = [0, count / 2, count.saturating_sub(1)].map(|frame| render(&draw(frame), PIXELS));
+    let some = [0, count / 2, count.saturating_sub(1)].map(|frame| draw(frame)?.rendered(PIXELS));
     let [first, middle, last] = some;
     let some = [first?, middle?, last?];
     // of sheets that are at most a few thousand pixels wide and high
@@ -219,10 +245,10 @@ mod tests {
     #[test]
     fn frames_of_a_gif_come_in_their_order() {
         let bar = |n: usize| {
-            format!(
+            Ok(Frame::Drawing(format!(
                 r#"<svg xmlns="http://www.w3.org/2000/svg" width="80" height="10"><rect width="{}" height="10"/></svg>"#,
                 n as f64 / PIXELS
-            )
+            )))
         };
         let bytes = Film::Gif.encode(40, &bar).unwrap();
         let mut options = gif::DecodeOptions::new();

@@ -72,9 +72,7 @@ fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
 /// # Errors
 /// Text that is no SVG; a picture without or with too many pixels.
 pub(super) fn render(svg: &str, pixels: f64) -> Result<Pixmap, String> {
-    let unread = |e: &dyn Display| format!("the drawing cannot be rendered: {e}");
-    let document = Document::parse(svg).map_err(|e| unread(&e))?;
-    let tree = Tree::from_str(&with_outlines(svg, &document), &Options::default()).map_err(|e| unread(&e))?;
+    let tree = tree(svg)?;
     let size = tree.size();
     let width = (f64::from(size.width()) * pixels).round();
     let height = (f64::from(size.height()) * pixels).round();
@@ -85,9 +83,29 @@ pub(super) fn render(svg: &str, pixels: f64) -> Result<Pixmap, String> {
         format!("the picture would have {width:.0} × {height:.0} pixels; {most}")
     })?;
     pixmap.fill(Color::WHITE);
-    let scale = Transform::from_scale(pixmap.width() as f32 / size.width(), pixmap.height() as f32 / size.height());
-    resvg::render(&tree, scale, &mut pixmap.as_mut());
+    lay(&tree, &mut pixmap);
     Ok(pixmap)
+}
+
+/// Draws over a picture, stretched to its size.
+///
+/// # Errors
+/// Text that is no SVG.
+pub(super) fn overlay(svg: &str, pixmap: &mut Pixmap) -> Result<(), String> {
+    lay(&tree(svg)?, pixmap);
+    Ok(())
+}
+
+fn tree(svg: &str) -> Result<Tree, String> {
+    let unread = |e: &dyn Display| format!("the drawing cannot be rendered: {e}");
+    let document = Document::parse(svg).map_err(|e| unread(&e))?;
+    Tree::from_str(&with_outlines(svg, &document), &Options::default()).map_err(|e| unread(&e))
+}
+
+fn lay(tree: &Tree, pixmap: &mut Pixmap) {
+    let size = tree.size();
+    let scale = Transform::from_scale(pixmap.width() as f32 / size.width(), pixmap.height() as f32 / size.height());
+    resvg::render(tree, scale, &mut pixmap.as_mut());
 }
 
 /// The drawing with each text replaced by its outlines.

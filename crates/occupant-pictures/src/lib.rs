@@ -15,7 +15,9 @@ pub mod font;
 pub mod format;
 pub mod gltf;
 pub mod html;
+mod mesh;
 pub mod plot;
+pub mod scene;
 pub mod svg;
 pub mod view;
 

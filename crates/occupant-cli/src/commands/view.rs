@@ -11,6 +11,8 @@ use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::attempt;
 use rayon::prelude::*;
 
+mod solid;
+
 use super::flags::history::seconds;
 use crate::base::progress::{bar, counted};
 use crate::base::{Failure, deliver_and, ending, file_name, note, publish, refuse_input, say, with_word};
@@ -18,9 +20,11 @@ use occupant_files::results::Results;
 use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
 use occupant_pictures::Format;
 use occupant_pictures::body::Snapshot;
-use occupant_pictures::film::{Draw, FRAMES_A_SECOND, Film};
+use occupant_pictures::film::{Draw, FRAMES_A_SECOND, Film, Frame};
+use occupant_pictures::scene::sheet;
 use occupant_pictures::view::{Measured, Strip, View, draw, frames};
 use occupant_scenario::{Loaded, Size};
+use solid::Solid;
 
 /// Pixels of a PNG per drawing unit.
 const PIXELS: f64 = 2.0;
@@ -30,6 +34,8 @@ const EVERY_MS: f64 = 40.0;
 const MOST_BY_DEFAULT: usize = 12;
 /// Largest number with `--times`.
 const MOST: usize = 120;
+/// How long a film stops, s.
+const FROZEN_S: usize = 2;
 /// Largest number of frames of a film.
 const MOST_FRAMES: usize = 3000;
 
@@ -44,7 +50,7 @@ pub(crate) struct Args {
     input: PathBuf,
 
     /// The picture, NAME.svg or NAME.png, or the film, NAME.gif or NAME.mp4 (needs ffmpeg); NAME-view.svg beside the input
-    /// if absent
+    /// if absent, NAME-view.png with --3d
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -77,16 +83,30 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIMES", default_value = "20", value_parser = slow_motion)]
     slow_motion: f64,
 
+    /// Stop a film for two seconds at this time, such as "80 ms"
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
+    freeze: Option<f64>,
+
+    #[command(flatten)]
+    solid: Solid,
+
     /// Change a value of the scenario, such as --set body.preset=female05. May be repeated
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     overrides: Vec<String>,
 }
 
 pub(crate) fn view(args: &Args) -> Result<(), Failure> {
-    let output = args.output.clone().unwrap_or_else(|| with_word(&args.input.with_extension("svg"), "-view"));
+    let usual = if args.solid.is_asked() { "png" } else { "svg" };
+    let output = args.output.clone().unwrap_or_else(|| with_word(&args.input.with_extension(usual), "-view"));
     let kind = if args.each.is_some() { Kind::Frames } else { Kind::of(&output)? };
     refuse_input(&output, &args.input)?;
+    if args.solid.is_asked() && matches!(kind, Kind::Picture(Format::Svg)) {
+        return Err(Failure::ending(&output, ".png, .gif or .mp4, as a picture in three dimensions is made of pixels"));
+    }
     if ending(&args.input) != "mcap" {
+        if args.solid.is_asked() {
+            return Err(Failure::with_help("--3d needs a run, and this is a scenario", "run it first"));
+        }
         return seated(args, &output, kind);
     }
     if !args.overrides.is_empty() {
@@ -97,29 +117,45 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let wanted = match (&args.times, kind) {
         (Some(times), _) => times.0.clone(),
         (None, Kind::Picture(_)) => regular(span_s(&results)),
-        (None, Kind::Film(_) | Kind::Frames) => frames_s(span_s(&results), args.slow_motion)?,
+        (None, Kind::Film(_) | Kind::Frames) => frozen(frames_s(span_s(&results), args.slow_motion)?, args.freeze),
     };
     let moments = moments(&results, &outputs(&results, &wanted)?)?;
-    let origin = origin(&results) + &pace(args, kind);
+    let pace = pace(args, kind);
+    if args.solid.is_asked() {
+        let one = args.solid.scene(&results, &moments, &origin(&results), &pace, kind)?;
+        return deliver_frames(args, kind, &output, moments.len(), &one);
+    }
+    let origin = origin(&results) + &pace;
     let dimensions = if args.dimensions { lines(&results.loaded, &results.model, false) } else { Vec::new() };
     let strip = Strip { model: &results.model, moments, views: views(args, kind), origin, dimensions };
-    let (one, bar) = (frames(&strip), bar(Some(strip.moments.len() as u64), &counted("frames"), false));
+    if let Kind::Picture(format) = kind {
+        return deliver_and(args.open, &output, args.force, &picture(&strip, format)?);
+    }
+    let one = frames(&strip);
+    deliver_frames(args, kind, &output, strip.moments.len(), &|frame| Ok(Frame::Drawing(one(frame))))
+}
+
+/// Writes a film, or frames, or a picture of pixels.
+fn deliver_frames(args: &Args, kind: Kind, output: &Path, count: usize, draw: Draw<'_>) -> Result<(), Failure> {
+    let bar = bar(Some(count as u64), &counted("frames"), false);
     let one = |frame| {
-        let drawing = one(frame);
+        let drawing = draw(frame);
         bar.inc(1);
         drawing
     };
     let bytes = match kind {
-        Kind::Picture(format) => picture(&strip, format)?,
+        Kind::Picture(_) => {
+            let all: Result<Vec<_>, _> = (0..count).map(one).collect();
+            sheet(all.map_err(Failure::plain)?).map_err(|e| Failure::with_help(e, "draw fewer times"))?
+        }
         Kind::Film(film) => {
             let help = "write a .gif; for a shorter film use --times or a smaller --slow-motion";
-            let film = film.encode(strip.moments.len(), &one).map_err(|e| Failure::with_help(e, help))?;
-            bar.finish_and_clear();
-            film
+            film.encode(count, &one).map_err(|e| Failure::with_help(e, help))?
         }
-        Kind::Frames => return write_each(args, strip.moments.len(), &one),
+        Kind::Frames => return write_each(args, count, &one),
     };
-    deliver_and(args.open, &output, args.force, &bytes)
+    bar.finish_and_clear();
+    deliver_and(args.open, output, args.force, &bytes)
 }
 
 /// Playback speed of a film, as text.
@@ -143,7 +179,7 @@ fn write_each(args: &Args, count: usize, draw: Draw<'_>) -> Result<(), Failure> 
     let Some(folder) = &args.each else { return Ok(()) };
     fs::create_dir_all(folder).map_err(|e| Failure::plain(format!("{} cannot be made: {e}", folder.display())))?;
     (0..count).into_par_iter().try_for_each(|frame| {
-        let picture = Format::Png.encode(&draw(frame), PIXELS).map_err(Failure::plain)?;
+        let picture = draw(frame).and_then(|drawing| drawing.png(PIXELS)).map_err(Failure::plain)?;
         publish(&folder.join(format!("{:04}.png", frame + 1)), args.force, &picture)
     })?;
     say(&format!("wrote {count} frames into {}", folder.display()));
@@ -272,6 +308,16 @@ fn frames_s([first_s, last_s]: [f64; 2], slow_motion: f64) -> Result<Vec<f64>, F
         ));
     }
     Ok((0..count).map(|i| first_s + i as f64 * every_s).collect())
+}
+
+/// The times of a film that stops at one of them.
+fn frozen(mut times: Vec<f64>, freeze: Option<f64>) -> Vec<f64> {
+    if let Some(stop) = freeze {
+        let at = times.partition_point(|time| *time < stop).min(times.len().saturating_sub(1));
+        let held = times.get(at).copied();
+        times.splice(at..at, held.into_iter().cycle().take(FROZEN_S * usize::from(FRAMES_A_SECOND)));
+    }
+    times
 }
 
 /// Times, s.

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::forces::shown::{Line, Section};
 use occupant_core::model::Model;
@@ -83,6 +84,16 @@ impl Snapshot {
             _ => corners_m(face),
         };
         self.placed(face.frame, corners)
+    }
+
+    /// The faces of a solid, m.
+    pub fn solid_m(&self, solid: &Solid) -> Vec<Vec<Point3<f64>>> {
+        solid.outline().into_iter().map(|side| self.placed(solid.frame, side)).collect()
+    }
+
+    /// Points of a frame, such as those of scenery, in vehicle axes, m.
+    pub fn placed_m(&self, frame: Frame, points: &[Point3<f64>]) -> Vec<Point3<f64>> {
+        self.placed(frame, points.to_vec())
     }
 
     /// Points of a frame converted to vehicle axes.

@@ -3,20 +3,14 @@
 use nalgebra::Isometry3;
 use serde_json::{Value, json};
 
+use crate::mesh::Mesh;
+
 /// Component types of glTF.
 const FLOAT: u32 = 5126;
 const INDEX: u32 = 5125;
 /// Targets of buffer views; none for times and rotations.
 const VERTICES: u32 = 34962;
 const TRIANGLES: u32 = 34963;
-
-/// A triangle mesh: vertices, normals, and three indices per triangle.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Mesh {
-    pub(super) corners: Vec<[f32; 3]>,
-    pub(super) normals: Vec<[f32; 3]>,
-    pub(super) triangles: Vec<[u32; 3]>,
-}
 
 /// A file under construction.
 #[derive(Debug, Default)]

@@ -6,7 +6,6 @@
 //! ```
 
 mod file;
-mod shape;
 
 use std::collections::BTreeMap;
 
@@ -18,6 +17,7 @@ use occupant_core::vehicle::FrameMotion;
 use serde_json::{Value, json};
 
 use super::body::{Snapshot, parts};
+use super::mesh::{self, COARSE, hull};
 use file::{File, place, turn};
 use occupant_files::base::{Failure, program};
 use occupant_files::mcap::scene::compartment::{color_of, corners_m, frame_name, scenery_color};
@@ -132,7 +132,7 @@ fn bodies(file: &mut File, model: &Model, motion: &Motion) -> Vec<usize> {
                 let known = materials.get(&name).copied();
                 let material = known.unwrap_or_else(|| file.material(&name, part.tone.color().parts()));
                 materials.insert(name, material);
-                (shape::hull(&part.ends), material)
+                (hull(&part.ends, COARSE), material)
             })
             .collect();
         let name = body.tree[segment].name;
@@ -164,7 +164,7 @@ fn compartment(file: &mut File, model: &Model) -> BTreeMap<String, Vec<(String, 
         ));
     }
     for (name, frame, material, polygons) in touched.chain(drawn) {
-        let mesh = file.mesh(name, &[(shape::polygons(&polygons), material)]);
+        let mesh = file.mesh(name, &[(mesh::polygons(&polygons), material)]);
         let of = if frame == Frame::Vehicle { "compartment".to_owned() } else { frame_name(model, frame) };
         frames.entry(of).or_default().push((name.clone(), mesh));
     }

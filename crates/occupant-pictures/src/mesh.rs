@@ -1,34 +1,41 @@
-//! Shapes of the parts of a body and of what there is to touch.
+//! Triangle meshes of the parts of a body and of what there is to touch.
 
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Point3, Vector3};
 
-use super::file::Mesh;
 use crate::body::Lump;
 
-/// Number of directions around the long axis and from end to end.
-const ROUND: u32 = 20;
-const ALONG: u32 = 12;
+/// A triangle mesh: vertices, normals, and three indices per triangle.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Mesh {
+    pub(crate) corners: Vec<[f32; 3]>,
+    pub(crate) normals: Vec<[f32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+}
+
+/// Number of directions around the long axis and from end to end: of a file's mesh, and of a picture's.
+pub(crate) const COARSE: [u32; 2] = [20, 12];
+pub(crate) const FINE: [u32; 2] = [36, 25];
 
 /// The convex hull of two ellipsoids, by its support points.
-pub(super) fn hull(ends: &[Lump; 2]) -> Mesh {
+pub(crate) fn hull(ends: &[Lump; 2], [round, along]: [u32; 2]) -> Mesh {
     let mut mesh = Mesh::default();
-    for i in 0..=ALONG {
+    for i in 0..=along {
         // both sides of the middle, where the point goes from one end to the other, are close together
-        let height = f64::from(i) / f64::from(ALONG) * PI;
-        for j in 0..ROUND {
-            let angle = f64::from(j) / f64::from(ROUND) * TAU;
+        let height = f64::from(i) / f64::from(along) * PI;
+        for j in 0..round {
+            let angle = f64::from(j) / f64::from(round) * TAU;
             let direction =
                 axes(ends) * Vector3::new(height.sin() * angle.cos(), height.sin() * angle.sin(), height.cos());
             mesh.corners.push(farthest(ends, &direction).map(|x| x as f32));
             mesh.normals.push(direction.data.0[0].map(|x| x as f32));
         }
     }
-    for i in 0..ALONG {
-        for j in 0..ROUND {
-            let next = (j + 1) % ROUND;
-            let [a, b, c, d] = [i * ROUND + j, i * ROUND + next, (i + 1) * ROUND + j, (i + 1) * ROUND + next];
+    for i in 0..along {
+        for j in 0..round {
+            let next = (j + 1) % round;
+            let [a, b, c, d] = [i * round + j, i * round + next, (i + 1) * round + j, (i + 1) * round + next];
             mesh.triangles.extend([[a, c, b], [b, c, d]]);
         }
     }
@@ -51,7 +58,7 @@ fn farthest(ends: &[Lump; 2], direction: &Vector3<f64>) -> [f64; 3] {
 }
 
 /// Convex polygons.
-pub(super) fn polygons(all: &[Vec<Point3<f64>>]) -> Mesh {
+pub(crate) fn polygons(all: &[Vec<Point3<f64>>]) -> Mesh {
     let mut mesh = Mesh::default();
     for corners in all.iter().filter(|corners| corners.len() > 2) {
         let first = mesh.corners.len() as u32;
@@ -71,7 +78,7 @@ mod tests {
     #[test]
     fn a_hull_of_two_balls_is_a_capsule_with_its_outside_outside() {
         let ball = |z: f64| Lump { centre_m: Vector3::new(0.0, 0.0, z), half_m: Vector3::repeat(0.1) };
-        let mesh = hull(&[ball(0.0), ball(0.4)]);
+        let mesh = hull(&[ball(0.0), ball(0.4)], COARSE);
         let beyond = |p: &[f32; 3]| {
             let z = f64::from(p[2]).clamp(0.0, 0.4);
             Vector3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2]) - z).norm()
