@@ -62,11 +62,10 @@ fn patterns_that_fit_nothing_are_noted_and_names_are_told_all_at_once() {
         answer(folder.path(), &["export", "x.mcap", "--channels", "head.x,nothing,head.acceleration.x", "-o", "y.csv"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("there is no channel `head.x`, `nothing`"), "{}", err(&output));
-    // files and measures are no words of channels
-    for (word, said) in [("x.mcap", "occupant channels --of x.mcap"), ("HIC", "HIC15 is a measure")] {
-        let output = answer(folder.path(), &["channels", word]);
-        assert!(output.status.code() == Some(2) && err(&output).contains(said), "{}", err(&output));
-    }
+    // a file is one whose channels are listed; a measure is no channel
+    assert_eq!(done(folder.path(), &["channels", "x.mcap"]), done(folder.path(), &["channels", "--of", "x.mcap"]));
+    let output = answer(folder.path(), &["channels", "HIC"]);
+    assert!(output.status.code() == Some(2) && err(&output).contains("HIC15 is a measure"), "{}", err(&output));
     // what cannot have its class is left out with a note, what can is compared
     let output = answer(folder.path(), &["compare", "x.mcap", "x.mcap", "--filter", "j211"]);
     let said = err(&output) + &String::from_utf8_lossy(&output.stdout);
@@ -91,13 +90,20 @@ fn keys_are_found_by_what_people_call_them() {
         ("seatbelt", "belts"),
         ("seat belts", "belts"),
         ("intrusion", "car.intrusion"),
+        ("PDOF", "path.direction"),
+        ("Δv", "path.delta_v"),
+        ("guardrail", "drive.barriers"),
         ("path.kind=sensors", "path.kind   (kind = \"sensors\")"),
     ] {
         let told = done(folder.path(), &["explain", word]);
         assert!(told.starts_with(key), "{word}: {told}");
     }
-    let output = answer(folder.path(), &["explain", "ejection"]);
-    assert!(output.status.code() == Some(2) && err(&output).contains("is a result, not a key"), "{}", err(&output));
+    for (word, where_it_is) in [("ejection", "explain ground"), ("submarining", "explain wing"), ("HIC", "measures")] {
+        let output = answer(folder.path(), &["explain", word]);
+        let said = err(&output);
+        assert!(output.status.code() == Some(2) && said.contains("is a result, not a key"), "{said}");
+        assert!(said.contains(where_it_is), "{said}");
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use placed_text::did_you_mean;
 
 use super::new::STARTER;
 use crate::base::text_table::{Align, Table};
-use crate::base::{Failure, by_ending, ending, quoted, talk};
+use crate::base::{Failure, by_ending, ending, talk};
 use occupant_files::results::Results;
 use occupant_jobs::files::scenario::{self, ScenarioArgs};
 
@@ -19,8 +19,9 @@ use occupant_jobs::files::scenario::{self, ScenarioArgs};
 /// Other commands take these names in --channel; `*` matches any part of a name. {x,y,z} stands for three channels.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// List only channels with this word in their name or meaning, such as head, belt or energy
-    #[arg(value_name = "WORD")]
+    /// List only channels with this word in their name or meaning, such as head, belt or "chest deflection"; or the
+    /// run, scenario or deck whose channels to list
+    #[arg(value_name = "WORD|FILE")]
     word: Option<String>,
 
     /// The run, scenario or deck; the scenario of `occupant new` if absent
@@ -29,28 +30,25 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn channels(args: &Args) -> Result<(), Failure> {
-    let model = match &args.of {
+    let file = args.word.as_ref().filter(|word| args.of.is_none() && is_file(word));
+    let model = match args.of.as_deref().or_else(|| file.map(Path::new)) {
         Some(file) => model_of(file)?,
         None => starter()?,
     };
-    let word = args.word.as_deref().unwrap_or_default().to_lowercase();
+    let word = if file.is_some() { String::new() } else { args.word.as_deref().unwrap_or_default().to_lowercase() };
     let all = all_of(&model);
     // whole words first: `hic` is no vehicle
     let is_word = |text: &str| text.split(|c: char| !c.is_alphanumeric()).any(|own| own.to_lowercase() == word);
-    let has_word = |text: &str| text.to_lowercase().contains(&word);
-    let that = |is: &dyn Fn(&str) -> bool| rows(all.iter().filter(|c| is(&c.name) || is(&c.meaning)));
-    let mut found = if word.is_empty() { Vec::new() } else { that(&is_word) };
+    let has_words = |c: &Channel| {
+        let text = format!("{} {}", c.name, c.meaning).to_lowercase();
+        word.split_whitespace().all(|own| text.contains(own))
+    };
+    let that = |is: &dyn Fn(&Channel) -> bool| rows(all.iter().filter(|c| is(c)));
+    let mut found = if word.is_empty() { Vec::new() } else { that(&|c| is_word(&c.name) || is_word(&c.meaning)) };
     if found.is_empty() && measure(&word).is_none() {
-        found = that(&has_word);
+        found = that(&has_words);
     }
     if found.is_empty() {
-        if let Some(file) = args.word.as_ref().filter(|word| args.of.is_none() && is_file(word)) {
-            let help = format!("occupant channels --of {}", quoted(file));
-            return Err(Failure::with_help(
-                format!("{file} is a file, not a word in the name or meaning of a channel"),
-                &help,
-            ));
-        }
         if let Some(label) = measure(&word) {
             let help = "`occupant measures RUN.mcap` prints the measures of a run";
             return Err(Failure::with_help(format!("{label} is a measure, one number per run, not a channel"), help));

@@ -146,8 +146,8 @@ impl<'a> Key<'a> {
         if let (true, Some((_, key))) = (found.is_empty(), ALSO.iter().find(|(word, _)| is_called(path, word))) {
             return self.find(key);
         }
-        if found.is_empty() && RESULTS.iter().any(|word| is_called(path, word)) {
-            let help = "`occupant run` prints ejections, and throws if the scenario has a [ground]: see `occupant explain ground`";
+        let result = RESULTS.iter().find(|(words, _)| words.iter().any(|word| is_called(path, word)));
+        if let (true, Some((_, help))) = (found.is_empty(), result) {
             return Err(Failure::with_help(format!("`{path}` is a result, not a key"), help));
         }
         if found.is_empty() {
@@ -204,7 +204,7 @@ impl<'a> Key<'a> {
 }
 
 /// Synonyms of keys.
-const ALSO: [(&str, &str); 8] = [
+const ALSO: [(&str, &str); 14] = [
     ("airbag", "bags"),
     ("air_bag", "bags"),
     ("seatbelt", "belts"),
@@ -213,9 +213,28 @@ const ALSO: [(&str, &str); 8] = [
     ("intrusion", "frames"),
     ("pretensioner", "retractors"),
     ("interior", "solids"),
+    ("delta_v", "delta_v"),
+    ("δv", "delta_v"),
+    ("dv", "delta_v"),
+    ("pdof", "direction"),
+    ("barrier", "barriers"),
+    ("guardrail", "barriers"),
 ];
-/// Words looked up as keys that are results.
-const RESULTS: [&str; 4] = ["ejection", "throw", "throw_distance", "searle"];
+/// Words looked up as keys that are results, each with where it is found.
+const RESULTS: [(&[&str], &str); 3] = [
+    (
+        &["ejection", "throw", "throw_distance", "searle"],
+        "`occupant run` prints ejections, and throws if the scenario has a [ground]: see `occupant explain ground`",
+    ),
+    (
+        &["submarining"],
+        "`occupant run` lists it among the events if the lap belt lies on iliac wings: see `occupant explain wing` and `occupant explain lap`",
+    ),
+    (
+        &["hic", "hic15", "hic36", "nij", "nic", "nkm", "bric", "whiplash", "rib_deflection", "chest_deflection"],
+        "it is a measure: `occupant run` and `occupant measures RUN.mcap` print it",
+    ),
+];
 
 /// Whether two spellings mean the same word, ignoring case, blanks and underscores.
 fn is_called(said: &str, word: &str) -> bool {
