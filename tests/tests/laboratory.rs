@@ -12,7 +12,7 @@ use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, matching};
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::{assert_below, assert_within};
-use occupant_tests::room::{FINE, setup};
+use occupant_tests::room::setup;
 
 /// Columns of a table of a test, by name, at the interval of its first column.
 pub(crate) struct Curves {
