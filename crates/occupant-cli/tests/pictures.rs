@@ -155,7 +155,8 @@ fn pictures_in_three_dimensions_have_their_size_and_camera() {
     };
     let side = |png: &[u8], at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     let cameras = ["vehicle", "ground", "chase", "driver", "aside.toml"];
-    let mut all: Vec<Vec<u8>> = cameras.iter().map(|camera| picture(&["--times", "1 ms", "--camera", camera])).collect();
+    let mut all: Vec<Vec<u8>> =
+        cameras.iter().map(|camera| picture(&["--times", "1 ms", "--camera", camera])).collect();
     assert_eq!(all[0], picture(&["--times", "1 ms"]));
     assert_eq!([side(&all[0], 16), side(&all[0], 20)], [160, 90]);
     all.sort();
@@ -163,7 +164,8 @@ fn pictures_in_three_dimensions_have_their_size_and_camera() {
     assert_eq!(all.len(), cameras.len());
     let sheet = picture(&["--times", "0,1,2,3 ms"]);
     assert_eq!([side(&sheet, 16), side(&sheet, 20)], [480, 180]);
-    let words = ["view", "run.mcap", "--3d", "--size", "160x90", "-o", "v.gif", "--slow-motion", "200", "--freeze", "1 ms"];
+    let words =
+        ["view", "run.mcap", "--3d", "--size", "160x90", "-o", "v.gif", "--slow-motion", "200", "--freeze", "1 ms"];
     assert_eq!(code(&answer(folder.path(), &words)), 0);
     let bytes = fs::read(folder.path().join("v.gif")).unwrap();
     let mut film = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
@@ -172,7 +174,7 @@ fn pictures_in_three_dimensions_have_their_size_and_camera() {
         frames += 1;
     }
     // 50 frames at rest
-    assert_eq!(frames, 197 + 50);
+    assert_eq!(frames, 198 + 50);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use super::{answer, code, err, folder_with_case, out};
 
 /// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
-const COMMANDS: [[&str; 2]; 24] = [
+const COMMANDS: [[&str; 2]; 25] = [
     ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
     [
         "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
@@ -17,6 +17,7 @@ const COMMANDS: [[&str; 2]; 24] = [
     ["sweep study.toml -o sweep", "sweep none.toml"],
     ["study report sweep -f", "study report none"],
     ["fit study.toml --test test.csv -o fit", "fit study.toml --test none.csv -o none"],
+    ["optimise study.toml -o optimum", "optimise none.toml"],
     ["import test.csv -f -o import.toml", "import none.csv"],
     ["check case.toml", "check none.toml"],
     ["drive driven.toml -f -o drive.csv", "drive case.toml"],
@@ -44,7 +45,8 @@ const COMMANDS: [[&str; 2]; 24] = [
 const STUDY: &str = "base = \"case.toml\"\nseed = 1\n[set]\n\"time.end\" = \"10 ms\"\n\
     [design]\nkind = \"latin_hypercube\"\nsamples = 3\n\
     [[parameters]]\npath = \"belts.lap.k1\"\nrange = { from = \"50 kN/m\", to = \"90 kN/m\" }\n\
-    [fit]\nobjective = \"rms\"\nbudget = 8\n";
+    [fit]\nobjective = \"rms\"\nbudget = 8\n\
+    [optimise]\nminimise = \"head.peak\"\nallow_caveats = [\"*\"]\nbudget = 8\n";
 
 const DECK: &str = include_str!("../../../../scenarios/decks/driver-lap-torso.dat");
 
