@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::Point3;
 use occupant_core::body::Segment;
 use occupant_core::forces::contact::material::Force;
+use occupant_core::forces::function::Unloading;
 use occupant_core::model::Model;
 use occupant_core::model::accuracy::Accuracy;
 use occupant_core::model::setup::{Integrator, Setup};
@@ -70,7 +71,12 @@ fn stiffer(setup: &Setup, factor: f64) -> Setup {
                 spring.k1_n_per_m *= factor;
                 spring.k2_n_per_m *= factor;
             }
-            Force::Deflection(law) => law.loading.points.iter_mut().for_each(|point| point[1] *= factor),
+            Force::Deflection(law) => {
+                law.loading.points.iter_mut().for_each(|point| point[1] *= factor);
+                if let Unloading::Slope { n_per_m, .. } = &mut law.unloading {
+                    *n_per_m *= factor;
+                }
+            }
         }
     }
     setup

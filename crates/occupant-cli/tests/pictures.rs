@@ -188,6 +188,9 @@ fn wrong_cameras_are_answered() {
     };
     refused(&["--3d", "--camera", "grund"], "is `ground` meant?");
     refused(&["--3d", "--camera", "none.toml"], "cannot be read");
+    refused(&["--3d", "--freeze", "1 ms"], "this is a picture");
+    let output = answer(folder.path(), &["view", "run.mcap", "-o", "v.gif", "--freeze", "5 s"]);
+    assert!(code(&output) == 2 && err(&output).contains("--freeze 5000 ms is outside the run"), "{}", err(&output));
     refused(&["--3d", "--size", "0x90"], "16 to 8192");
     refused(&["--3d", "--size", "big"], "such as 1920x1080");
     refused(&["--3d", "--views", "top"], "cannot be used with");

@@ -114,10 +114,15 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     }
     let results = Results::open(&args.input)?;
     results.notes().iter().chain(&results.doubt()).for_each(note);
+    let span_s = span_s(&results);
     let wanted = match (&args.times, kind) {
         (Some(times), _) => times.0.clone(),
-        (None, Kind::Picture(_)) => regular(span_s(&results)),
-        (None, Kind::Film(_) | Kind::Frames) => frozen(frames_s(span_s(&results), args.slow_motion)?, args.freeze),
+        (None, Kind::Picture(_)) => regular(span_s),
+        (None, Kind::Film(_) | Kind::Frames) => frames_s(span_s, args.slow_motion)?,
+    };
+    let wanted = match args.freeze {
+        Some(stop_s) => frozen(wanted, stop_s, span_s, kind)?,
+        None => wanted,
     };
     let moments = moments(&results, &outputs(&results, &wanted)?)?;
     let pace = pace(args, kind);
@@ -311,13 +316,23 @@ fn frames_s([first_s, last_s]: [f64; 2], slow_motion: f64) -> Result<Vec<f64>, F
 }
 
 /// The times of a film that stops at one of them.
-fn frozen(mut times: Vec<f64>, freeze: Option<f64>) -> Vec<f64> {
-    if let Some(stop) = freeze {
-        let at = times.partition_point(|time| *time < stop).min(times.len().saturating_sub(1));
-        let held = times.get(at).copied();
-        times.splice(at..at, held.into_iter().cycle().take(FROZEN_S * usize::from(FRAMES_A_SECOND)));
+///
+/// # Errors
+/// A picture, which does not move; a time outside the run.
+fn frozen(mut times: Vec<f64>, stop_s: f64, span_s: [f64; 2], kind: Kind) -> Result<Vec<f64>, Failure> {
+    if let Kind::Picture(_) = kind {
+        let help = "write a .gif or .mp4, or --each FOLDER; for one moment use --times";
+        return Err(Failure::with_help("--freeze stops a film, and this is a picture", help));
     }
-    times
+    let [first_s, last_s] = span_s;
+    if !(first_s..=last_s).contains(&stop_s) {
+        let found = format!("--freeze {} ms is outside the run", 1e3 * stop_s);
+        return Err(Failure::with_help(found, &format!("the run lasts from {} to {} ms", 1e3 * first_s, 1e3 * last_s)));
+    }
+    let at = times.partition_point(|time| *time < stop_s).min(times.len().saturating_sub(1));
+    let held = times.get(at).copied();
+    times.splice(at..at, held.into_iter().cycle().take(FROZEN_S * usize::from(FRAMES_A_SECOND)));
+    Ok(times)
 }
 
 /// Times, s.

@@ -1,4 +1,4 @@
-//! Cameras by name, and one's own.
+//! Cameras by name, and those of a user.
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::model::Model;
@@ -31,11 +31,11 @@ pub enum Camera {
     Chase,
     /// The eye of the first occupant, looking forward.
     Driver,
-    /// A place and a target of one's own.
+    /// A place and a target of the user.
     Own(Lens, Carrier),
 }
 
-/// The axes of a camera of one's own.
+/// The axes of a user's camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carrier {
     /// Vehicle: X forward, Y right, Z down.
@@ -61,7 +61,7 @@ impl Camera {
             Camera::Vehicle => "camera fixed to the vehicle",
             Camera::Chase => "camera behind the occupant",
             Camera::Driver => "seen by the occupant",
-            Camera::Own(..) => "camera of one's own",
+            Camera::Own(..) => "camera from a file",
         }
     }
 

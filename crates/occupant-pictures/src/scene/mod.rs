@@ -54,7 +54,7 @@ impl<'a> Scene<'a> {
     /// they come from.
     ///
     /// # Errors
-    /// A side without pixels, or with more than [`MOST_PIXELS`]; a camera of one's own that looks nowhere.
+    /// A side without pixels, or with more than [`MOST_PIXELS`]; a user's camera that looks nowhere.
     pub fn new(
         model: &'a Model,
         moments: &'a [Snapshot],

@@ -197,10 +197,12 @@ mod tests {
     /// A refused half with the lower goal: the search ends at its edge, on the allowed side.
     #[test]
     fn refused_and_failed_candidates_never_win() {
-        let (point, found) = best(2, 0.9, 1, &|x| match x {
-            [_, y] if *y > 0.8 => Trial::failed(),
-            [x, y] => Trial { goal: x + (y - 0.5) * (y - 0.5), beyond: vec![], is_refused: *x < 0.4 },
-            _ => unreachable!(),
+        let (point, found) = best(2, 0.9, 1, &|at| {
+            let (x, y) = (at[0], at[1]);
+            if y > 0.8 {
+                return Trial::failed();
+            }
+            Trial { goal: x + (y - 0.5) * (y - 0.5), beyond: vec![], is_refused: x < 0.4 }
         });
         assert!((0.4..0.401).contains(&point.at[0]) && found.rank() < Rank::Refused(0.0), "{point:?}");
         // limits that nothing meets: the least excess
