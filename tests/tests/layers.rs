@@ -116,6 +116,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
             "run",
             "extend",
             "drive",
+            "quoted",
             "ensemble",
             "sensitivity",
             "sweep",

@@ -252,3 +252,28 @@ fn the_table_marks_what_is_not_stable() {
     let few = table("9");
     assert!(few.contains("too few members") && !few.contains('*'), "{few}");
 }
+
+#[test]
+fn an_ensemble_can_be_quoted() {
+    let folder = tempfile::tempdir().unwrap();
+    let words = ["20", "--until", "30 ms", "--vary", "friction", "--limit", "head.peak=1 g"];
+    let answer_of =
+        |threads: &str| ensemble(folder.path(), "cart-lap.toml", &[&words[..], &["--threads", threads]].concat());
+    let answer = answer_of("1");
+    let e = &answer["ensemble"];
+    assert_eq!(e["quotes"], answer_of("3")["ensemble"]["quotes"]);
+    let quotes = e["quotes"].as_array().unwrap();
+    let head = quotes.iter().find(|q| q["figure"] == "head.peak").unwrap();
+    // the unchanged run is not counted
+    assert_eq!((&head["runs"], &head["limits"][0]["of"]), (&19.into(), &19.into()));
+    assert_eq!(&head["unchanged"], &named(&e["figures"])["head.peak"]["nominal"]);
+    let paragraph = head["paragraph"].as_str().unwrap();
+    for words in [
+        "19 runs with random changes (seed 0)",
+        "1 % of the pulse",
+        "friction (",
+        "a factor [ready distribution; guess]",
+    ] {
+        assert!(paragraph.contains(words), "{words}: {paragraph}");
+    }
+}

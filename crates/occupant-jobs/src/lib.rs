@@ -42,6 +42,7 @@ pub mod instruments;
 pub mod optimise;
 pub mod plot;
 pub mod print;
+pub mod quoted;
 pub mod report;
 pub mod risk;
 pub mod run;

@@ -5,9 +5,10 @@
 //! numbers depend only on seed, member and place. So members of different samples have the same changes, and an
 //! ensemble of 64 begins with that of 32.
 
-use super::law::Value;
+use super::law::{Law, Value};
 use super::parameter::{Assignment, Parameter, Target, changed, place};
 use super::random::{Purpose, unit};
+use super::section::ApplyChoice;
 use occupant_scenario::{Draft, Place, rival_path};
 use placed_text::{Problem, Value as Written};
 use serde::Serialize;
@@ -49,7 +50,7 @@ pub struct Ensemble {
     pub perturbations: Vec<Perturbation>,
 }
 
-/// A small random change of one value, or of several together.
+/// A random change of one value, or of several together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perturbation {
     /// Largest change.
@@ -58,13 +59,15 @@ pub struct Perturbation {
     pub targets: Vec<Target>,
 }
 
-/// Largest change, to both sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Size of a change.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Change {
-    /// Absolute, SI units.
+    /// Uniform, at most so much to both sides: absolute, SI units.
     Offset(f64),
-    /// Relative.
+    /// Uniform, at most so much to both sides: relative.
     Factor(f64),
+    /// Drawn from a law: a value, a factor or an offset.
+    Drawn(Law, ApplyChoice),
 }
 
 impl Ensemble {
@@ -75,27 +78,44 @@ impl Ensemble {
         }
         for (i, perturbation) in self.perturbations.iter().enumerate() {
             // −1 … 1
-            let way = 2.0 * unit(seed, Purpose::Ensemble, member, i as u32) - 1.0;
+            let part = unit(seed, Purpose::Ensemble, member, i as u32);
+            let way = 2.0 * part - 1.0;
             for target in &perturbation.targets {
                 // a sample that gives the peak of a pulse has taken its change of speed away
                 let rival = rival_path(&target.path);
                 if list.iter().any(|a| Some(&a.path) == rival.as_ref()) {
                     continue;
                 }
-                let value = changed(target, list, |old| match perturbation.change {
-                    Change::Offset(most) => old + way * most,
-                    Change::Factor(most) => old * (1.0 + way * most),
-                });
+                let value = match &perturbation.change {
+                    Change::Offset(most) => changed(target, list, |old| old + way * most),
+                    Change::Factor(most) => changed(target, list, |old| old * (1.0 + way * most)),
+                    Change::Drawn(law, apply) => drawn(law.quantile(part), *apply, target, list),
+                };
                 place(target, value, list);
             }
         }
     }
 }
 
+/// The value of a target after a draw.
+fn drawn(draw: Value, apply: ApplyChoice, target: &Target, list: &[Assignment]) -> Value {
+    match (apply, draw) {
+        (ApplyChoice::Value, value) => value,
+        (ApplyChoice::Factor, Value::Number(x)) => changed(target, list, |old| old * x),
+        (ApplyChoice::Offset, Value::Number(x)) => changed(target, list, |old| old + x),
+        _ => Value::Base,
+    }
+}
+
+/// Perturbations of parameters by their laws.
+pub(super) fn of_parameters(parameters: Vec<Parameter>) -> impl Iterator<Item = Perturbation> {
+    parameters.into_iter().map(|p| Perturbation { change: Change::Drawn(p.law, p.apply), targets: p.targets })
+}
+
 /// One perturbation per existing path, independent of each other.
 fn each(base: &Draft, paths: &[String], change: Change) -> Vec<Perturbation> {
     let found = paths.iter().filter_map(|path| targets(base, path).ok());
-    found.flatten().map(|target| Perturbation { change, targets: vec![target] }).collect()
+    found.flatten().map(|target| Perturbation { change: change.clone(), targets: vec![target] }).collect()
 }
 
 /// The numbers at a path.
@@ -119,7 +139,7 @@ pub(super) fn posture(base: &Draft, most_rad: f64) -> Vec<Perturbation> {
 }
 
 /// Path prefix of each occupant: empty, or `occupants.NAME.`.
-fn people(base: &Draft) -> Vec<String> {
+pub(super) fn people(base: &Draft) -> Vec<String> {
     let named = base.clone().get("occupants.*").unwrap_or_default();
     let own = named.into_iter().map(|(path, _)| format!("{path}."));
     std::iter::once(String::new()).chain(own).collect()
@@ -149,16 +169,33 @@ pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Per
         }
     }
     let change = Change::Factor(most);
-    let pulse = Some(Perturbation { change, targets: strengths }).filter(|pulse| !pulse.targets.is_empty());
-    let recorded = recorded(base).into_iter().map(|target| Perturbation { change, targets: vec![target] });
-    let others = each(base, &["vehicles.*.path.peak", "vehicles.*.path.delta_v"].map(str::to_owned), change);
+    // a record that is scaled to a delta-v is changed by it
+    let has_delta_v = |target: &Target| {
+        let delta_v = target.path.replace("strength", "delta_v");
+        strengths.iter().any(|t| t.path == delta_v) || targets(base, &delta_v).is_ok_and(|found| !found.is_empty())
+    };
+    let recorded: Vec<Target> = recorded(base).into_iter().filter(|target| !has_delta_v(target)).collect();
+    let recorded = recorded.into_iter().map(|target| Perturbation { change: change.clone(), targets: vec![target] });
+    let pulse = Some(Perturbation { change: change.clone(), targets: strengths });
+    let pulse = pulse.filter(|pulse| !pulse.targets.is_empty());
+    let others = each(base, &["vehicles.*.path.peak", "vehicles.*.path.delta_v"].map(str::to_owned), change.clone());
     pulse.into_iter().chain(recorded).chain(others).collect()
 }
 
-/// The strength of each path that is a table or a record; 1 if the scenario does not give it.
+/// The strength of each path that is a table, a tabulated pulse or a record; 1 if the scenario does not give it.
 fn recorded(base: &Draft) -> Vec<Target> {
+    let word = |path: &str| match base.places(path).ok()?.into_iter().next()?.value? {
+        Written::String(word) => Some(word),
+        _ => None,
+    };
     let kinds = ["path.kind", "vehicles.*.path.kind"].iter().filter_map(|path| base.places(path).ok()).flatten();
-    let is_recorded = |place: &Place| matches!(&place.value, Some(Written::String(kind)) if ["table", "sensors"].contains(&kind.as_str()));
+    let is_recorded = |place: &Place| match &place.value {
+        Some(Written::String(kind)) if kind == "pulse" => {
+            word(&place.path.replace("kind", "shape")).as_deref() == Some("tabulated")
+        }
+        Some(Written::String(kind)) => ["table", "sensors"].contains(&kind.as_str()),
+        _ => false,
+    };
     let strength = |place: Place| {
         let path = format!("{}strength", place.path.strip_suffix("kind")?);
         let place = base.places(&path).ok()?.into_iter().next()?;

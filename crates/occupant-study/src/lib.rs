@@ -49,6 +49,7 @@
 
 pub mod analysis;
 mod bind;
+pub mod certainty;
 mod copula;
 mod corners;
 mod design;
@@ -57,6 +58,7 @@ pub mod engine;
 mod ensemble;
 mod fit;
 mod fit_section;
+mod inputs;
 mod keep;
 mod law;
 pub mod misfit;
@@ -83,6 +85,7 @@ pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances, without_place};
 pub use fit::Fit;
 pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, GainRange, Misfit, OffsetRange};
+pub use inputs::InputWord;
 pub use keep::Keep;
 pub use law::{Bounds, Distribution, Law, Value};
 pub use normal::quantile as normal_quantile;
@@ -166,6 +169,25 @@ impl Study {
             csv: false,
             warnings: Diagnostics::new(),
         }
+    }
+
+    /// Adds uncertain inputs to an ensemble, each drawn by every member from its ready distribution; the parameters that they
+    /// stand for.
+    ///
+    /// # Errors
+    /// An input that the scenario does not have.
+    pub fn vary(&mut self, words: &[InputWord]) -> Result<Vec<Parameter>, String> {
+        let mut all = Vec::new();
+        for word in words {
+            let found = word.parameters(&self.base);
+            all.extend(
+                found.map_err(|needs| format!("the scenario has no input `{}`: it needs {needs}", word.word()))?,
+            );
+        }
+        if let Some(ensemble) = &mut self.ensemble {
+            ensemble.perturbations.extend(ensemble::of_parameters(all.clone()));
+        }
+        Ok(all)
     }
 
     /// Number of runs: samples of the design times members of the ensemble.

@@ -20,6 +20,8 @@ pub struct Parameter {
     pub crossed: bool,
     /// Values that it changes.
     pub targets: Vec<Target>,
+    /// Where its law comes from, of a law that is built in; else empty.
+    pub source: &'static str,
 }
 
 /// A value that a parameter changes.

@@ -11,6 +11,7 @@ use serde_json::Value as Json;
 
 use super::design::Design;
 use super::fit_section::FitSection;
+use super::inputs::InputWord;
 use super::keep::KeepSection;
 use super::law::Distribution;
 use super::optimise_section::OptimiseSection;
@@ -71,9 +72,10 @@ pub struct StudySection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-exactly-one" = [["path", "paths", "segments"]],
+    "x-exactly-one" = [["path", "paths", "segments", "input"]],
     "x-at-most-one" = [
-        ["grid", "list", "range", "distribution", "usual", "segments"], ["name", "segments"], ["apply", "segments"],
+        ["grid", "list", "range", "distribution", "usual", "segments", "input"], ["name", "segments", "input"],
+        ["apply", "segments", "input"],
     ],
 ))]
 pub struct ParameterSection {
@@ -87,6 +89,9 @@ pub struct ParameterSection {
     /// Adds one parameter per segment of the body, left and right together, such as `segments.thigh`: a factor on its mass
     /// and moments of inertia, uniform between 1 minus and 1 plus this. Anthropometric tables differ by about 15 %.
     pub segments: Option<Ratio<FRACTION>>,
+    /// An uncertain input of a reconstruction by one word, with a ready distribution; it adds a parameter for each independent
+    /// value, such as each seat.
+    pub input: Option<InputWord>,
     /// How the number changes the scenario's value; "value" if absent.
     pub apply: Option<ApplyChoice>,
     /// Evenly spaced values.
@@ -186,6 +191,10 @@ pub struct EnsembleSection {
     /// Tolerance of mass and inertia of each segment of the body, left and right together, such as "15 %", by which
     /// anthropometric tables differ.
     pub segments: Option<Ratio<FRACTION>>,
+    /// Uncertain inputs of a reconstruction, by their words in `[[parameters]] input`: each member draws its own from their
+    /// ready distributions. Without other keys nothing else is changed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<InputWord>,
     /// Further changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub perturbations: Vec<PerturbationSection>,

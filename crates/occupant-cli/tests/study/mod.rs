@@ -5,6 +5,7 @@ mod again;
 mod bands;
 mod known;
 mod page;
+mod quoted;
 mod refused;
 
 use std::fs;

@@ -1,8 +1,10 @@
 //! Shared tools of all jobs: messages, progress, interruption, text tables, units, and the base of the library of
 //! files.
 
+pub mod describe;
 pub mod interrupt;
 pub mod progress;
+pub mod shown;
 pub mod talk;
 pub mod text_table;
 pub mod units;

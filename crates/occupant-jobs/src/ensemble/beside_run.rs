@@ -2,15 +2,18 @@
 
 use std::path::PathBuf;
 
+use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::summary::Summary;
 use occupant_study::engine::Engine;
 use occupant_study::{Study, Tolerances};
 use placed_text::shown;
 
+use super::quotes::{Subject, quotes};
 use super::{Bands, Left, Members, Report, plot};
 use crate::base::{Existing, Failure, Interrupt, Show, Units, program, write_whole};
 use crate::files::scenario::Opened;
+use crate::quoted::{Limits, parse_limit};
 use occupant_files::table::{Form, TableFile};
 use occupant_pictures::Format;
 
@@ -35,8 +38,14 @@ pub struct Wanted {
     pub files: Vec<(PathBuf, BandFile)>,
     /// Whether files are replaced.
     pub existing: Existing,
-    /// Units of pictures.
+    /// Units of pictures and paragraphs.
     pub units: Units,
+    /// Inputs drawn from ready distributions, described.
+    pub inputs: Vec<String>,
+    /// Limits besides those of rules, such as `hic15=700`.
+    pub limits: Vec<String>,
+    /// Names and patterns of figures whose paragraphs are printed.
+    pub quote: Vec<String>,
 }
 
 /// Content of a band file.
@@ -85,9 +94,26 @@ impl Wanted {
         let bands = Bands::of(&self.channels, time_s, &runs, self.within);
         let mut report = Report::of(&nominal, &others, self.within, bands, (self.seed, self.changes));
         let title = shown(&summary.title);
+        let limits = self.limits_of(&nominal, &opened.model)?;
+        let subject = Subject {
+            simulated: format!("{} simulated {} (“{title}”)", program(), self.study.base_name),
+            seed: self.seed,
+            changes: &self.changes,
+            inputs: &self.inputs,
+            limits: &limits,
+            units: self.units,
+        };
+        report.quotes = quotes(&subject, &nominal, &others);
+        (report.inputs, report.quote) = (self.inputs.clone(), self.quote.clone());
         let files = self.files.iter().map(|file| self.write(&report, file, &title));
         report.files = files.collect::<Result<_, _>>()?;
         Ok(report)
+    }
+
+    fn limits_of(&self, nominal: &Left, model: &Model) -> Result<Limits, Failure> {
+        let figures: Vec<_> = nominal.figures.iter().map(|f| (f.name.clone(), f.unit.to_owned())).collect();
+        let asked: Vec<_> = self.limits.iter().map(|text| parse_limit(text, &figures)).collect::<Result<_, _>>()?;
+        Ok(Limits::new(Some(model), asked.concat()))
     }
 
     fn write(&self, report: &Report, (path, kind): &(PathBuf, BandFile), title: &str) -> Result<String, Failure> {

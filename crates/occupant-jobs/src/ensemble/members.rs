@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
-use occupant_core::results::summary::{Figure, Summarizer, Summary};
+use occupant_core::results::summary::{Caveat, Figure, Summarizer, Summary};
 use occupant_study::Study;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source};
 
@@ -27,6 +27,8 @@ pub struct Left {
     pub values: Vec<Vec<f64>>,
     /// Times of the outputs, s.
     pub time_s: Vec<f64>,
+    /// Caveats on the figures.
+    pub caveats: Vec<Caveat>,
 }
 
 impl Left {
@@ -39,7 +41,8 @@ impl Left {
     pub fn of(summary: &Summary, model: &Model, histories: Series) -> Left {
         let mut figures = summary.figures(model);
         figures.retain(|f| is_result(&f.name));
-        Left { figures, values: histories.values, time_s: histories.time_s }
+        let caveats = summary.caveats.clone();
+        Left { figures, values: histories.values, time_s: histories.time_s, caveats }
     }
 }
 

@@ -11,6 +11,7 @@ pub mod beside_run;
 pub mod judge;
 pub mod members;
 mod plot;
+mod quotes;
 pub mod report;
 pub mod text;
 

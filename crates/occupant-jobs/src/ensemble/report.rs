@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::judge::judge;
 use super::{Bands, Judged, Left, Member};
+use crate::quoted::Statement;
 
 /// Results of an ensemble; SI units.
 #[derive(Serialize)]
@@ -29,6 +30,13 @@ pub struct Report {
     pub bands: Bands,
     /// Files of bands and plots.
     pub files: Vec<String>,
+    /// Inputs drawn from ready distributions, described.
+    pub inputs: Vec<String>,
+    /// What the changed runs say of each figure.
+    pub quotes: Vec<Statement>,
+    /// Names and patterns of figures whose paragraphs are printed.
+    #[serde(skip)]
+    pub quote: Vec<String>,
 }
 
 /// A member that did not complete, with the reason.
@@ -58,7 +66,8 @@ impl Report {
         let figures = judge(figures.map(|(f, values)| (f.name.as_str(), f.unit, &values[..])), within);
         let members = others.len() as u64 + 1;
         let completed = members - failed.len() as u64;
-        Report { members, completed, seed, changes, within, failed, figures, bands, files: Vec::new() }
+        let (files, inputs, quotes, quote) = Default::default();
+        Report { members, completed, seed, changes, within, failed, figures, bands, files, inputs, quotes, quote }
     }
 
     /// Names of the figures that are not stable.

@@ -1,5 +1,6 @@
 //! An ensemble as text: changes, stable figures, times at which the members diverge.
 
+use occupant_core::results::channel::star;
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 
@@ -42,6 +43,9 @@ pub fn text(report: &Report, units: Units) -> String {
         parts.push(channels(report, units));
     }
     parts.push(conclusion(report));
+    let asked = |figure: &str| report.quote.iter().any(|pattern| star(pattern, figure).is_some());
+    let quoted = report.quotes.iter().filter(|quote| asked(&quote.figure));
+    parts.extend(quoted.map(|quote| format!("{}\n", quote.paragraph)));
     parts.join("\n")
 }
 
@@ -55,7 +59,8 @@ fn what(report: &Report, units: Units) -> String {
     for Failed { member, reason } in report.failed.iter().take(NAMED) {
         lines.push(("", format!("member {member}: {reason}")));
     }
-    lines.push(("changed by up to", changes(&report.changes, report.seed, units)));
+    lines.push(("changed by up to", changes(&report.changes, Some(report.seed), units)));
+    lines.extend(report.inputs.iter().map(|input| ("drawn", input.clone())));
     lines.push((
         "stable",
         format!(
@@ -66,17 +71,19 @@ fn what(report: &Report, units: Units) -> String {
     facts(&lines)
 }
 
-fn changes(most: &Tolerances, seed: u64, units: Units) -> String {
+/// The changes in words, with the seed.
+pub fn changes(most: &Tolerances, seed: Option<u64>, units: Units) -> String {
     let segments = (most.segments > 0.0).then(|| format!(", {} % of each segment", percent(most.segments)));
     let (per, unit) = units.told("m").shown;
     let place = format!("{} {unit}", trimmed(most.place_m / per, 3));
     format!(
-        "{}° in each angle, {} in position, {} % of the pulse, {} % of each stiffness{} (seed {seed})",
+        "{}° in each angle, {} in position, {} % of the pulse, {} % of each stiffness{}{}",
         trimmed(most.posture_rad.to_degrees(), 3),
         place,
         percent(most.path),
         percent(most.stiffness),
-        segments.unwrap_or_default()
+        segments.unwrap_or_default(),
+        seed.map(|seed| format!(" (seed {seed})")).unwrap_or_default()
     )
 }
 

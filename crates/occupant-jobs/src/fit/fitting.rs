@@ -177,7 +177,7 @@ fn nuisances(test: &Test) -> impl Iterator<Item = Parameter> {
         let [from, to] = ends?;
         let name = format!("{}.{word}", test.name);
         let law = Law::Distribution(Distribution::Uniform { from, to });
-        Some(Parameter { name, unit, apply, law, crossed: false, targets: Vec::new() })
+        Some(Parameter { name, unit, apply, law, crossed: false, targets: Vec::new(), source: "" })
     })
 }
 

@@ -209,7 +209,7 @@ fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(V
 }
 
 /// Rows with independent parameters: for Saltelli's blocks those of A and B.
-fn independent(samples: &Samples) -> Vec<usize> {
+pub fn independent(samples: &Samples) -> Vec<usize> {
     let is_mixed =
         |row: &usize| matches!(samples.roles[*row], Role::Saltelli { block: Block::Ab { .. } | Block::Ba { .. }, .. });
     (0..samples.len()).filter(|row| !is_mixed(row)).collect()

@@ -8,8 +8,8 @@ use occupant_study::analysis::{Effect, Estimate, RankCorrelation, Regression, So
 use occupant_study::spread::Spread;
 
 use super::gather::Spoiled;
-use super::shown::part as shown_part;
 use super::{Gathered, Samples};
+use crate::base::shown::part as shown_part;
 use crate::sweep::Stored;
 
 /// Largest 95 % interval of an unmarked Sobol index.

@@ -27,6 +27,8 @@ pub struct Gathered {
     pub spoiled: Vec<Spoiled>,
     /// Outcomes of the runs.
     pub ends: Census,
+    /// By response: the runs of the only sample, of a study that varies nothing but its ensemble.
+    pub members: Vec<Vec<f64>>,
 }
 
 /// Index of a run, and its caveats on the figure.
@@ -60,6 +62,7 @@ pub fn gather(opened: &Stored, figures: &[usize], units: Units, show: Show) -> R
             extremes: vec![Extremes::new(EXTREMES); figures.len()],
             spoiled: vec![Spoiled::default(); figures.len()],
             ends: Census::new(&opened.manifest),
+            members: Vec::new(),
         },
         members: vec![Vec::new(); figures.len()],
     };
@@ -151,6 +154,9 @@ impl Gathering<'_> {
     fn close(&mut self) {
         if self.gathered.samples.is_empty() {
             return;
+        }
+        if self.study.samples() == 1 && self.study.members() > 1 {
+            self.gathered.members = self.members.clone();
         }
         for (response, members) in self.gathered.samples.responses.iter_mut().zip(&mut self.members) {
             let there = members.iter().filter(|x| x.is_finite()).count();

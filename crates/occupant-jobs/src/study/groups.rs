@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use occupant_study::spread::Spread;
 
-use super::shown::{given_with_unit, shown};
-use super::{Finding, Input, caution};
+use super::{Finding, Input, Samples, caution};
+use crate::base::shown::{given_with_unit, shown};
 use occupant_pictures::html::{Cell, Html};
 
 /// Largest number of rows of the table.
@@ -35,6 +35,17 @@ pub fn table(html: &mut Html, of: &Finding<'_>) {
     };
     let head = names.into_iter().chain(["samples", "least", "5 %", "median", "95 %", "greatest"]);
     html.table(&head.collect::<Vec<_>>(), &groups.iter().map(row).collect::<Vec<_>>());
+}
+
+/// Values of a response by combination of the crossed inputs, described; none with too many combinations.
+pub fn crossed(samples: &Samples, values: &[f64]) -> Option<Vec<(String, Vec<f64>)>> {
+    let keys: Vec<&Input> = samples.inputs.iter().filter(|input| input.crossed).collect();
+    let groups = groups(&keys, values);
+    let named = |(key, values): (Vec<f64>, Vec<f64>)| {
+        let words = keys.iter().zip(&key).map(|(input, value)| format!("{} = {}", input.name, word(input, *value)));
+        (words.collect::<Vec<_>>().join(", "), values)
+    };
+    (groups.len() <= MOST).then(|| groups.into_iter().map(named).collect())
 }
 
 /// Values of a response by combination of the inputs' values, in their order.

@@ -1,7 +1,7 @@
 //! Parameters against measures at a glance: how much each parameter matters for each measure.
 
-use super::shown::{part, shown, shown_unit};
 use super::{ByDesign, Finding, Report};
+use crate::base::shown::{part, shown, shown_unit};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table};
 use occupant_pictures::html::{Cell, Html};

@@ -2,8 +2,8 @@
 
 use occupant_study::analysis::{Estimate, SobolIndices};
 
-use super::shown::{part, shown};
 use super::{ByDesign, Finding, Linear, caution, plots};
+use crate::base::shown::{part, shown};
 use occupant_pictures::html::{Cell, Html};
 
 /// A table column with a row per parameter: heading, quantity, and what to show of it.

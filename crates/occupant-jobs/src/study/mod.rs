@@ -8,7 +8,6 @@ pub mod analysis;
 pub mod bands;
 pub mod caution;
 mod command;
-mod describe;
 mod gather;
 mod groups;
 mod matrix;
@@ -18,17 +17,22 @@ mod page;
 mod panels;
 mod pictures;
 mod plots;
+mod quoting;
 mod responses;
 pub mod samples;
 mod sections;
-mod shown;
+mod spread_plots;
 mod tables;
+pub mod worst;
 
 pub use matrix::text as matrix_text;
 pub use page::{page, subject};
+pub use quoting::{Answer, answer, text as paragraphs};
 pub use tables::{Tables, write as write_tables};
 
 use crate::base::{Failure, Show, Units};
+use crate::files::study_folder::Role;
+use crate::quoted::{Limits, Statement, parse_limit};
 use crate::sweep::Stored;
 use analysis::{Analysis, ByDesign, Linear};
 use gather::Gathered;
@@ -40,8 +44,10 @@ pub struct Report {
     /// Its folder.
     pub opened: Stored,
     gathered: Gathered,
-    /// By response: its analysis and all its numbers.
-    analyses: Vec<(Analysis, Vec<Number>)>,
+    /// By response: its analysis, all its numbers, and what can be quoted.
+    analyses: Vec<(Analysis, Vec<Number>, Vec<Statement>)>,
+    /// Folder of the scenarios of worst and best runs, from the folder of the page; none if they are not written.
+    pub runs: Option<String>,
     /// Notes to read before using any number.
     pub notes: Vec<String>,
 }
@@ -52,6 +58,8 @@ struct Finding<'a> {
     response: &'a Response,
     analysis: &'a Analysis,
     numbers: &'a [Number],
+    statements: &'a [Statement],
+    runs: Option<&'a str>,
 }
 
 impl Finding<'_> {
@@ -76,35 +84,58 @@ impl Finding<'_> {
 }
 
 impl Report {
-    /// Reads the rows and analyses the responses that `names` asks for, the customary ones for none.
+    /// Reads the rows and analyses the responses that `names` asks for, the customary ones for none, with `limits` beside
+    /// those of rules, such as `hic15=700`.
     ///
     /// # Errors
-    /// A name that is none; a journal that cannot be read.
-    pub fn of(opened: Stored, names: &[String], units: Units, show: Show) -> Result<Report, Failure> {
+    /// A name that is none; a limit that is none; a journal that cannot be read.
+    pub fn of(
+        opened: Stored,
+        names: &[String],
+        limits: &[String],
+        units: Units,
+        show: Show,
+    ) -> Result<Report, Failure> {
         let candidates = responses::candidates(&opened.manifest, names)?;
         let mut gathered = gather::gather(&opened, &candidates, units, show)?;
         if names.is_empty() {
             responses::keep_telling(&mut gathered);
         }
+        let limits = limits_of(&opened, limits)?;
+        let about = quoting::about(&opened, &gathered, units);
         let responses = gathered.samples.responses.len();
         let bar = show.bar(responses as u64, "results analysed");
         let analyse = |i: usize| {
             let analysis = Analysis::of(&gathered.samples, i, &opened.plan.study);
             let numbers = numbers(&opened, &gathered, &analysis);
             bar.iter().for_each(|bar| bar.set_position(i as u64 + 1));
-            (analysis, numbers)
+            let statements = quoting::statements(&about, &opened, &gathered, &analysis, &limits, units);
+            (analysis, numbers, statements)
         };
         let analyses = (0..responses).map(analyse).collect();
         bar.iter().for_each(|bar| bar.clear());
-        Ok(Report { analyses, notes: caution::of_the_study(&opened, &gathered), gathered, opened })
+        Ok(Report { analyses, notes: caution::of_the_study(&opened, &gathered), runs: None, gathered, opened })
+    }
+
+    /// What can be quoted, by response.
+    pub fn statements(&self) -> impl Iterator<Item = &Statement> {
+        self.analyses.iter().flat_map(|(.., statements)| statements)
     }
 
     /// Results by response.
     fn findings(&self) -> impl Iterator<Item = Finding<'_>> {
         let samples = &self.gathered.samples;
-        self.analyses.iter().map(move |(analysis, numbers)| {
+        self.analyses.iter().map(move |(analysis, numbers, statements)| {
             let response = &samples.responses[analysis.response];
-            Finding { samples, response, analysis, numbers }
+            Finding { samples, response, analysis, numbers, statements, runs: self.runs.as_deref() }
         })
     }
+}
+
+/// Limits of rules for the base scenario, and those asked for.
+fn limits_of(opened: &Stored, asked: &[String]) -> Result<Limits, Failure> {
+    let figures = opened.manifest.columns.iter().filter(|c| c.role == Role::Figure);
+    let figures: Vec<(String, String)> = figures.map(|c| (c.name.clone(), c.unit.clone())).collect();
+    let asked: Vec<_> = asked.iter().map(|text| parse_limit(text, &figures)).collect::<Result<_, _>>()?;
+    Ok(Limits::new(opened.plan.base_model().as_ref(), asked.concat()))
 }

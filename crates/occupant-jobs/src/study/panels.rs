@@ -5,8 +5,8 @@ use crash_measures::measure::risk::{Severity, chest_three_ms_risk, femur_risk, h
 use occupant_study::Design;
 
 use super::samples::{Input, Response};
-use super::shown::{given_with_unit, shown_unit, significant};
 use super::{Report, Samples};
+use crate::base::shown::{given_with_unit, shown_unit, significant};
 use occupant_pictures::html::Html;
 use occupant_pictures::svg::escape;
 

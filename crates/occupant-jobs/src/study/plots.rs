@@ -1,7 +1,7 @@
 //! The plots of a report, drawn by [`occupant_pictures::plot`].
 
-use super::shown::{shown_unit, significant};
 use super::{Finding, Input, Response};
+use crate::base::shown::{shown_unit, significant};
 use occupant_pictures::plot::{Axis, Curve, Figure, Style, inline};
 
 /// Size of a plot without its legend.

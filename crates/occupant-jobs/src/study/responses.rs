@@ -54,13 +54,16 @@ fn unknown(manifest: &Manifest, name: &str) -> Failure {
 /// Keeps the first default figures that vary, or the first ones if none does.
 pub fn keep_telling(gathered: &mut Gathered) {
     let responses = &gathered.samples.responses;
-    let mut kept: Vec<usize> = (0..responses.len()).filter(|i| varies(&responses[*i].values)).take(MOST).collect();
+    let members = &gathered.members;
+    let does = |i: &usize| varies(&responses[*i].values) || members.get(*i).is_some_and(|values| varies(values));
+    let mut kept: Vec<usize> = (0..responses.len()).filter(does).take(MOST).collect();
     if kept.is_empty() {
         kept.extend((!responses.is_empty()).then_some(0));
     }
     keep(&mut gathered.samples.responses, &kept);
     keep(&mut gathered.extremes, &kept);
     keep(&mut gathered.spoiled, &kept);
+    keep(&mut gathered.members, &kept);
 }
 
 /// Keeps the items at these indices.

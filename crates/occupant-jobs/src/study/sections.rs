@@ -1,7 +1,8 @@
 //! The sections of the page.
 
-use super::shown::{shown, shown_unit, with_unit};
-use super::{Finding, Report, describe, groups, matters, pictures};
+use super::{Finding, Report, groups, matters, pictures, quoting, worst};
+use crate::base::describe;
+use crate::base::shown::{shown, shown_unit, with_unit};
 use occupant_pictures::html::{Cell, Html};
 
 /// Description of the study.
@@ -99,6 +100,7 @@ pub fn response(html: &mut Html, of: &Finding<'_>) {
     html.fold(&format!("{heading}: {range}"));
     html.raw(&format!("<section id=\"r{}\">\n", of.analysis.response));
     spread(html, of);
+    of.statements.iter().for_each(|statement| quoting::section(html, statement, &of.response.unit));
     if of.analysis.spread.is_some() && !of.analysis.constant {
         groups::table(html, of);
         matters::by_design(html, of);
@@ -151,6 +153,10 @@ fn extremes(html: &mut Html, of: &Finding<'_>) {
         let value = with_unit(number.estimate.value, &of.response.unit);
         let mark = number.mark.as_ref().map(|why| format!(" †: {why}")).unwrap_or_default();
         html.fold(&format!("Run {}, {word}: {value}{mark}", run.number));
+        if let Some(folder) = of.runs {
+            let file = format!("occupant run {folder}/{}", worst::name(run.number));
+            html.text("pre class=\"scenario\"", &file);
+        }
         match &run.command {
             Some(command) => html.text("pre class=\"command\"", command),
             None => html.text("p class=\"remark\"", "Its values cannot be written as a shell command."),

@@ -2,8 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use super::quoting::bars;
+use super::spread_plots::sorted;
 use super::{Finding, Number, Report};
 use crate::base::{Existing, Failure};
+use crate::quoted::Statement;
 use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
 
 /// Files of a report's tables.
@@ -13,6 +16,8 @@ pub struct Tables {
     pub numbers: PathBuf,
     /// The table of samples.
     pub samples: PathBuf,
+    /// The table of quantiles, limits, histograms and distributions.
+    pub distribution: PathBuf,
 }
 
 impl Tables {
@@ -22,6 +27,7 @@ impl Tables {
         Tables {
             numbers: page.with_file_name(format!("{stem}.parquet")),
             samples: page.with_file_name(format!("{stem}-samples.parquet")),
+            distribution: page.with_file_name(format!("{stem}-distribution.parquet")),
         }
     }
 }
@@ -51,6 +57,7 @@ pub fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(),
         finding.numbers.iter().try_for_each(|number| table.row(row(&finding, number)))?;
     }
     table.publish()?;
+    distribution(report, &tables.distribution, existing)?;
     samples(report, &tables.samples, existing)
 }
 
@@ -71,6 +78,58 @@ fn row(of: &Finding<'_>, number: &Number) -> Vec<Cell> {
         Cell::count(run.map_or(0, |run| run.place)),
     ]);
     row
+}
+
+/// One row for each quantile, limit, bar of a histogram and value, with the interval of its share or value.
+fn distribution(report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {
+    let about = [
+        ("occupant.study", report.opened.manifest_sha256.clone()),
+        ("occupant.units", "{\"at\": \"column unit\", \"to\": \"column unit\", \"share\": \"1\"}".to_owned()),
+    ];
+    let columns = columns(&[
+        (Kind::Text, &["response", "case", "kind"]),
+        (Kind::MaybeNumber, &["at", "to", "share", "low", "high"]),
+        (Kind::Count, &["count", "of"]),
+        (Kind::Text, &["unit", "rules"]),
+    ]);
+    let mut table = TableFile::create(path.to_owned(), Form::Parquet, existing, &columns, &about)?;
+    for statement in report.statements() {
+        rows_of(statement).into_iter().try_for_each(|row| table.row(row))?;
+    }
+    table.publish().map(|_| ())
+}
+
+fn rows_of(of: &Statement) -> Vec<Vec<Cell>> {
+    let none = f64::NAN;
+    let row = |kind: &str, numbers: [f64; 5], count: usize, rules: &str| {
+        let mut row =
+            vec![Cell::text(&of.figure), Cell::text(of.case.as_deref().unwrap_or_default()), Cell::text(kind)];
+        row.extend(numbers.map(Cell::finite));
+        row.extend([count as u64, of.runs as u64].map(Cell::count));
+        row.extend([Cell::text(&of.unit), Cell::text(rules)]);
+        row
+    };
+    let n = of.runs as f64;
+    let end = |end: Option<f64>| end.unwrap_or(none);
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    rows.extend(
+        of.quantiles.iter().map(|q| row("quantile", [q.value, none, q.part, end(q.low), end(q.high)], of.runs, "")),
+    );
+    let is_sampled = of.without_intervals.is_none();
+    rows.extend(of.limits.iter().map(|limit| {
+        let (found, rules) = (&limit.found, limit.rules.join(", "));
+        let [low, high] = if is_sampled { [found.low, found.high] } else { [none; 2] };
+        row("limit", [limit.most, none, found.probability, low, high], found.above, &rules)
+    }));
+    rows.extend(
+        of.histogram
+            .iter()
+            .flat_map(bars)
+            .map(|(from, to, count)| row("bar", [from, to, count as f64 / n, none, none], count, "")),
+    );
+    let values = sorted(&of.values).into_iter().enumerate();
+    rows.extend(values.map(|(i, x)| row("value", [x, none, (i + 1) as f64 / n, none, none], i + 1, "")));
+    rows
 }
 
 fn samples(report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {

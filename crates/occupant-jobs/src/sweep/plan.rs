@@ -112,6 +112,11 @@ impl Plan {
         Ok(Opened { bytes: Vec::new(), loaded, model, warnings, deck: None })
     }
 
+    /// The model of the base scenario, or of the first sample if that is invalid.
+    pub fn base_model(&self) -> Option<Model> {
+        self.model(None).or_else(|_| self.model(Some(0))).ok().map(|(_, model, _)| model)
+    }
+
     /// Refuses a study if every sample checked is refused, as with an unknown key in its scenario.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::number_table::{Column, column};
-use super::path::{direction, numbers, pose, refuse};
+use super::path::{CHANGES, numbers, pose, refuse, turned_direction};
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Acceleration, Angle, Length, Ratio, Speed, Time};
 use crate::kind;
@@ -29,7 +29,7 @@ pub(crate) struct PulseSection {
     pub(crate) speed: Option<Speed<NOT_NEGATIVE>>,
     /// Peak deceleration. Give this or `delta_v`.
     pub(crate) peak: Option<Acceleration>,
-    /// Change of speed over the pulse. Give this or `peak`.
+    /// Change of speed over the pulse. Give this or `peak`. A tabulated pulse is scaled to it.
     pub(crate) delta_v: Option<Speed>,
     /// Duration of a half_sine, haversine, triangle or square pulse.
     pub(crate) duration: Option<Time<POSITIVE>>,
@@ -54,6 +54,11 @@ pub(crate) struct PulseSection {
     pub(crate) rebound: Option<Speed<NOT_NEGATIVE>>,
     /// Direction of travel [x, y, z], any length; the vehicle's heading if absent.
     pub(crate) direction: Option<[Ratio; 3]>,
+    /// Angle by which the direction of travel, and so the change of velocity, is turned against the vehicle, clockwise seen from
+    /// above: the uncertainty of a principal direction of force. 0 if absent.
+    pub(crate) turn: Option<Angle>,
+    /// Factor on the deceleration of a tabulated pulse; 1 if absent.
+    pub(crate) strength: Option<Ratio<NOT_NEGATIVE>>,
     /// [x, y, z] of the vehicle's centre of gravity at time 0; [0, 0, 0] if absent.
     pub(crate) position: Option<[Length; 3]>,
     /// Roll; 0 if absent.
@@ -99,9 +104,10 @@ pub(super) fn path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) ->
     };
     let speed_m_s = b.needed("path", "speed", &s.speed);
     let plain = PulseDefinition::new(speed_m_s, shape(b, s, kind, points)?);
+    let initial = pose(&s.position, [&s.roll, &s.pitch, &s.yaw]);
     let definition = PulseDefinition {
-        initial: pose(&s.position, [&s.roll, &s.pitch, &s.yaw]),
-        direction: direction(&s.direction),
+        direction: turned_direction(&s.direction, &s.turn, &initial),
+        initial,
         starts_at_s: si_or(&s.start, plain.starts_at_s),
         rebound_m_s: s.rebound.as_ref().map(Speed::si),
         ..plain
@@ -145,7 +151,7 @@ fn keys_of(shape: PulseShape) -> &'static [&'static str] {
         PulseShape::HalfSine | PulseShape::Haversine | PulseShape::Square => &["peak", "delta_v", "duration"],
         PulseShape::Triangle => &["peak", "delta_v", "duration", "peak_fraction"],
         PulseShape::Trapezoid => &["peak", "delta_v", "rise", "plateau", "fall"],
-        PulseShape::Tabulated => &["file", "columns", "rows"],
+        PulseShape::Tabulated => &["file", "columns", "rows", "delta_v", "strength"],
     }
 }
 
@@ -156,7 +162,8 @@ fn shape(b: &mut Builder, s: &PulseSection, kind: PulseShape, points: Option<Vec
         if points.is_none() {
             b.error("path", "a tabulated pulse without a table", "`file`, or `columns` and `rows`");
         }
-        return points.map(|points| Shape::Tabulated { points });
+        let points = scaled(b, s, points?)?;
+        return Some(Shape::Tabulated { points });
     }
     let strength = strength(b, s);
     if kind == PulseShape::Trapezoid {
@@ -177,6 +184,26 @@ fn shape(b: &mut Builder, s: &PulseSection, kind: PulseShape, points: Option<Vec
     })
 }
 
+/// The points of a table, scaled to a delta-v (the area below its straight lines) and by a strength.
+fn scaled(b: &mut Builder, s: &PulseSection, mut points: Vec<DecelerationPoint>) -> Option<Vec<DecelerationPoint>> {
+    let mut factor = si_or(&s.strength, 1.0);
+    if let Some(asked) = &s.delta_v {
+        let area = |pair: &[DecelerationPoint]| {
+            0.5 * (pair[0].deceleration_m_s2 + pair[1].deceleration_m_s2) * (pair[1].time_s - pair[0].time_s)
+        };
+        let own_m_s: f64 = points.windows(2).map(area).sum();
+        if own_m_s.abs() < 1e-6 {
+            b.error("path.delta_v", "a `delta_v` beside a table in which the velocity does not change", CHANGES);
+            return None;
+        }
+        factor *= asked.si() / own_m_s;
+    }
+    if factor != 1.0 {
+        points.iter_mut().for_each(|point| point.deceleration_m_s2 *= factor);
+    }
+    Some(points)
+}
+
 fn strength(b: &mut Builder, s: &PulseSection) -> Option<Strength> {
     match (&s.peak, &s.delta_v) {
         (Some(peak), _) => Some(Strength::PeakDeceleration(peak.si())),
@@ -193,7 +220,19 @@ fn strength(b: &mut Builder, s: &PulseSection) -> Option<Strength> {
 
 fn refuse_foreign_keys(b: &mut Builder, kind: PulseShape) {
     let known = keys_of(kind);
-    let keys = ["peak", "delta_v", "duration", "peak_fraction", "rise", "plateau", "fall", "file", "columns", "rows"];
+    let keys = [
+        "peak",
+        "delta_v",
+        "strength",
+        "duration",
+        "peak_fraction",
+        "rise",
+        "plateau",
+        "fall",
+        "file",
+        "columns",
+        "rows",
+    ];
     let foreign: Vec<&str> = keys.into_iter().filter(|key| !known.contains(key)).collect();
     let expected = format!("this shape takes only {}", known.join(", "));
     b.refuse_keys("path", &foreign, |key| format!("this pulse shape does not use `{key}`"), &expected);

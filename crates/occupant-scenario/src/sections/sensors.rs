@@ -6,15 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::number_table::{Column, NumberTable, column};
-use super::path::{direction, numbers, pose, refuse};
+use super::path::{CHANGES, direction, numbers, pose, refuse, scale_to, shift};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Angle, Length, Ratio, Speed, Time};
 use crate::kind;
 use crash_measures::signal::ChannelClass;
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_core::vehicle::{
-    AccelerationRecord, AfterEnd, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+    AccelerationRecord, AfterEnd, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord, VehiclePath,
 };
+use occupant_units::trig::sin_cos;
 use placed_text::{Diagnostic, Problem, SourceId};
 
 /// Recordings of sensors in the vehicle, along its axes: x forward, y right, z down.
@@ -56,6 +57,15 @@ pub(crate) struct SensorsSection {
     /// Factor on the recorded motion: accelerations without gravity, velocity changes and changes of rate. The initial
     /// state stays. 1 if absent.
     pub(crate) strength: Option<Ratio<NOT_NEGATIVE>>,
+    /// Largest change of the horizontal velocity from the first time on, to which the recorded motion is scaled; `strength` acts
+    /// on top of it. As recorded if absent.
+    pub(crate) delta_v: Option<Speed<POSITIVE>>,
+    /// Angle by which recorded accelerations and velocity changes are turned about the vehicle's vertical axis, clockwise seen
+    /// from above: the uncertainty of a principal direction of force. 0 if absent.
+    pub(crate) turn: Option<Angle>,
+    /// Time added to the clock of the record. Until its first time the first row holds. `start` is a time of the run. 0 if
+    /// absent.
+    pub(crate) shift: Option<Time>,
     /// Time of the record at which the path starts with the given position, angles and speed; its first time if absent.
     /// Set `time.start` to the same time to leave out braking before the crash, which folds a body without muscles.
     pub(crate) start: Option<Time>,
@@ -133,8 +143,10 @@ pub(super) fn path(
     file: Option<SourceId>,
     gravity_m_s2: f64,
 ) -> Option<SensorPath> {
-    let table = numbers(b, file, &COLUMNS)?;
-    let path = SensorPath::new(SensorDefinition {
+    let mut table = numbers(b, file, &COLUMNS)?;
+    shift(&mut table, &s.shift, |_, first, _| first.to_vec());
+    turn(&mut table, s);
+    let mut definition = SensorDefinition {
         record: record(b, s, &table)?,
         initial: pose(&s.position, [&s.roll, &s.pitch, &s.yaw]),
         initial_speed_m_s: s.speed.si(),
@@ -151,8 +163,36 @@ pub(super) fn path(
         strength: si_or(&s.strength, 1.0),
         starts_at_s: s.start.as_ref().map(Time::si),
         after: s.after.unwrap_or_default(),
-    });
-    path.map_err(|p| refuse(b, &p, Some(&table))).ok()
+    };
+    if let Some(asked) = &s.delta_v {
+        // a record that is none is refused with its own words below
+        if SensorPath::new(definition.clone()).is_ok() {
+            let with = |strength| SensorPath::new(SensorDefinition { strength, ..definition.clone() }).ok();
+            let scale = scale_to(asked.si(), &table, |strength| Some(VehiclePath::Sensors(Box::new(with(strength)?))));
+            definition.strength *= scale.map_err(|found| b.error("path.delta_v", found, CHANGES)).ok()?;
+        }
+    }
+    SensorPath::new(definition).map_err(|p| refuse(b, &p, Some(&table))).ok()
+}
+
+/// Turns longitudinal and lateral columns about the vehicle's vertical axis.
+fn turn(table: &mut NumberTable, s: &SensorsSection) {
+    let turn_rad = si_or(&s.turn, 0.0);
+    if turn_rad == 0.0 {
+        return;
+    }
+    // to the right of the axes of the record
+    let (sin, cos) = sin_cos(turn_rad * s.axes.map_or(1.0, |axes| axes.signs()[1]));
+    for [x, y] in [[1, 2], [7, 8]] {
+        if !(table.present[x] || table.present[y]) {
+            continue;
+        }
+        table.present[x] = true;
+        table.present[y] = true;
+        for row in &mut table.rows {
+            (row[x], row[y]) = (cos * row[x] - sin * row[y], sin * row[x] + cos * row[y]);
+        }
+    }
 }
 
 /// The channels of the table, in axes forward, right, down.

@@ -26,7 +26,10 @@ pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) 
         ("stiffness", stiffness, "materials or belts"),
         ("segments", segments, "a body"),
     ];
-    let says_nothing = section.perturbations.is_empty() && groups.iter().all(|(_, found, _)| found.is_none());
+    let inputs = binder.inputs(&section.inputs, "ensemble.inputs", base);
+    let says_nothing = section.perturbations.is_empty()
+        && section.inputs.is_empty()
+        && groups.iter().all(|(_, found, _)| found.is_none());
     let mut perturbations = Vec::new();
     if says_nothing {
         perturbations = ensemble::standard(base, parameters, &ensemble::Tolerances::default());
@@ -41,6 +44,7 @@ pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) 
     for (i, written) in section.perturbations.iter().enumerate() {
         perturbations.extend(perturbation(binder, written, &format!("ensemble.perturbations[{i}]")));
     }
+    perturbations.extend(ensemble::of_parameters(inputs));
     Some(Ensemble { members: section.members, perturbations })
 }
 

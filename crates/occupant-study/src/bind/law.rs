@@ -1,10 +1,11 @@
 //! The written numbers of a parameter as a [`Law`] in SI units.
 
 use super::Binder;
+use crate::inputs::of_usual;
 use crate::law::{Distribution, Law, Value};
 use crate::section::{ApplyChoice, GridSection, ParameterSection, ScaleChoice};
+use occupant_scenario::Wanted;
 use occupant_scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
-use occupant_scenario::{Usual, Wanted};
 use placed_text::{Value as Written, did_you_mean, one_of};
 
 /// The built-in distribution for a parameter's only path.
@@ -16,10 +17,7 @@ fn usual(binder: &mut Binder, section: &ParameterSection, at: &str) -> Option<Di
         binder.error(at, "no usual spread is known of this", expected, None);
         return None;
     }
-    found.map(|usual| match usual {
-        Usual::Normal { mean_sd: [mean, sd], ends: [from, to] } => Distribution::TruncatedNormal { mean, sd, from, to },
-        Usual::Falling { mode, to } => Distribution::Triangular { from: mode, mode, to },
-    })
+    found.map(of_usual)
 }
 
 /// Reading of the values of a parameter.

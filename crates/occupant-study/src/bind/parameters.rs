@@ -3,11 +3,15 @@
 use super::law::{Quantities, kind_of};
 use super::{Binder, Purpose};
 use crate::design::Design;
+use crate::inputs::InputWord;
 use crate::law::{Distribution, Law};
 use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::{ApplyChoice, ParameterSection};
 use crate::segments::{segments, size};
-use occupant_scenario::{Place, Wanted};
+use occupant_scenario::{Draft, Place, Wanted};
+
+/// Source of built-in distributions.
+const USUAL: &str = "built in: see the guide to [car]";
 
 impl Binder<'_> {
     /// The parameters whose paths exist; a wrong one is reported and left out.
@@ -16,10 +20,14 @@ impl Binder<'_> {
         let mut found: Vec<Parameter> = Vec::new();
         for (i, section) in sections.iter().enumerate() {
             let at = format!("parameters[{i}]");
-            if section.segments.is_some() {
+            if section.segments.is_some() || section.input.is_some() {
                 self.is_crossed(section, &at);
             }
-            let ready = section.segments.as_ref().map(|most| self.segments(most.si(), &at));
+            let ready = match (&section.segments, section.input) {
+                (Some(most), _) => Some(self.segments(most.si(), &at)),
+                (None, Some(word)) => Some(self.input(word, &at)),
+                (None, None) => None,
+            };
             for parameter in ready.unwrap_or_else(|| self.parameter(section, &at).into_iter().collect()) {
                 self.clash(&parameter, &found, &at);
                 found.push(parameter);
@@ -49,8 +57,35 @@ impl Binder<'_> {
             law: law.clone(),
             crossed: false,
             targets,
+            source: "",
         };
         found.into_iter().map(of).collect()
+    }
+
+    /// The parameters of an input by its word.
+    fn input(&mut self, word: InputWord, at: &str) -> Vec<Parameter> {
+        if self.has_table() {
+            self.error(at, "`input` beside a table of samples", "columns such as path.strength", None);
+        }
+        match self.base {
+            Some(base) => self.inputs(&[word], &format!("{at}.input"), base),
+            None => Vec::new(),
+        }
+    }
+
+    /// The parameters of several inputs; one that the scenario lacks is reported.
+    pub(super) fn inputs(&mut self, words: &[InputWord], at: &str, base: &Draft) -> Vec<Parameter> {
+        let mut all = Vec::new();
+        for word in words {
+            match word.parameters(base) {
+                Ok(found) => all.extend(found),
+                Err(needs) => {
+                    let found = format!("the base scenario has no input `{}`", word.word());
+                    self.error(at, found, needs, None);
+                }
+            }
+        }
+        all
     }
 
     /// Reports parameters that change the body while `segments` refers to the body of the base.
@@ -81,6 +116,7 @@ impl Binder<'_> {
             law,
             crossed: self.is_crossed(section, at),
             targets: places.iter().map(Target::of).collect(),
+            source: if section.usual == Some(true) { USUAL } else { "" },
         })
     }
 

@@ -143,6 +143,7 @@ impl Reader<'_, '_, '_> {
             law: Law::Table,
             crossed: false,
             targets: places.iter().map(Target::of).collect(),
+            source: "",
         })
     }
 

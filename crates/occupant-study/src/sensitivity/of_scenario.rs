@@ -43,7 +43,8 @@ pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Re
         }
         _ => (ApplyChoice::Factor, "1"),
     };
-    let varied = crate::Parameter { name: path.to_owned(), unit, apply, law: Law::Table, crossed: false, targets };
+    let varied =
+        crate::Parameter { name: path.to_owned(), unit, apply, law: Law::Table, crossed: false, targets, source: "" };
     let nominal = match varied.nominal() {
         Value::Number(x) => x,
         _ => f64::NAN,

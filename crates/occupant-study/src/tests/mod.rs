@@ -3,6 +3,7 @@
 mod designs;
 mod ensembles;
 mod fits;
+mod inputs;
 mod laws;
 mod messages;
 mod paths;

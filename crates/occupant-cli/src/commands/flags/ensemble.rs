@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use occupant_core::run::batch::Kernel;
 use occupant_scenario::Draft;
 use occupant_scenario::kind::{self, KINDS, UnitSystem};
-use occupant_study::{Study, Tolerances, without_place};
+use occupant_study::{InputWord, Study, Tolerances, without_place};
 use occupant_units::unit::UnitError;
 use placed_text::Value;
 
 use super::sweep::engine;
 use crate::base::{Existing, Failure, Units, note, refuse_input};
 use occupant_files::table::Form;
+use occupant_jobs::base::describe;
 use occupant_jobs::ensemble::bands::{choose, refuse_too_much};
 use occupant_jobs::ensemble::beside_run::{BandFile, Wanted};
 use occupant_jobs::files::scenario::{Opened, inputs};
@@ -39,6 +40,20 @@ pub(crate) struct EnsembleArgs {
     /// and inertia of each body segment. May be repeated
     #[arg(long, value_name = "WHAT=AMOUNT", requires = "ensemble")]
     change: Vec<String>,
+
+    /// Uncertain inputs of a reconstruction that each run draws from ready distributions: scale, delta_v, shift, direction, seat,
+    /// posture, belt, slack, friction, mass
+    #[arg(long, value_name = "WORDS", requires = "ensemble", value_delimiter = ',')]
+    vary: Vec<String>,
+
+    /// Print a paragraph to quote for these results, by name or pattern, such as hic15,head.*
+    #[arg(long, value_name = "RESULTS", requires = "ensemble", value_delimiter = ',')]
+    quote: Vec<String>,
+
+    /// A limit besides those of rules, such as hic15=700 or 'head_excursion.forward=650 mm', for the probability that it is
+    /// exceeded. May be repeated
+    #[arg(long, value_name = "RESULT=VALUE", requires = "ensemble")]
+    limit: Vec<String>,
 
     /// A result is stable if the middle 90% of the runs lie within this fraction of the median
     #[arg(long, value_name = "FRACTION", default_value = "10%", requires = "ensemble")]
@@ -91,9 +106,17 @@ impl EnsembleArgs {
             band_file(path).map(|kind| (path.clone(), kind))
         });
         let name = scenario.display().to_string();
+        let words = self.vary.iter().map(|word| input(word)).collect::<Result<Vec<_>, _>>()?;
+        let mut study = Study::of_ensemble(draft.clone(), name, members, self.seed, &changes);
+        let varied =
+            study.vary(&words).map_err(|found| Failure::with_help(format!("--vary: {found}"), "leave it out"))?;
+        let inputs = varied.iter().map(|p| describe::input(p, &units.told_of(p, draft))).collect();
         Ok(Some(Wanted {
+            inputs,
+            limits: self.limit.clone(),
+            quote: self.quote.clone(),
             files: files.collect::<Result<_, _>>()?,
-            study: Study::of_ensemble(draft.clone(), name, members, self.seed, &changes),
+            study,
             seed: self.seed,
             changes,
             within,
@@ -103,6 +126,15 @@ impl EnsembleArgs {
             units,
         }))
     }
+}
+
+/// The input with this word.
+fn input(word: &str) -> Result<InputWord, Failure> {
+    let words = InputWord::ALL.map(InputWord::word);
+    let found = InputWord::ALL.into_iter().find(|input| input.word() == word.trim());
+    found.ok_or_else(|| {
+        Failure::with_help(format!("--vary {word}: unknown input"), &format!("give {}", words.join(", ")))
+    })
 }
 
 fn band_file(path: &Path) -> Result<BandFile, Failure> {

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, is_page, print, progress, say};
-use occupant_jobs::study::{Report, Tables, matrix_text, page, subject, write_tables};
+use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, file_name, is_page, json, print, progress, say};
+use occupant_jobs::study::{Report, Tables, answer, matrix_text, page, paragraphs, subject, worst, write_tables};
 use occupant_jobs::sweep::stored::{MadeBy, open};
 use occupant_pictures::html::is_page_of;
 
@@ -31,6 +31,15 @@ pub(crate) struct ReportArgs {
     /// Results to report, such as hic15,belts.*.peak; if absent, those of head, chest, pelvis and belts that vary
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     to: Vec<String>,
+
+    /// A limit besides those of rules, such as hic15=700 or 'head_excursion.forward=650 mm': the report says how probable it is
+    /// that it is exceeded. May be repeated
+    #[arg(long, value_name = "FIGURE=VALUE")]
+    limit: Vec<String>,
+
+    /// Print what can be quoted of each result as JSON, in SI units, instead of text
+    #[arg(long)]
+    json: bool,
 }
 
 /// Makes the report of a study.
@@ -43,10 +52,11 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let opened = open(&args.folders, MadeBy::AnyProgram)?;
     refuse_names(&page_at, &tables, args)?;
     let units = args.units.or(Some(opened.plan.study.base.units()));
-    let report = Report::of(opened, &args.to, units, progress::show(false))?;
+    let mut report = Report::of(opened, &args.to, &args.limit, units, progress::show(false))?;
+    let runs = worst::beside(&page_at);
     let force = args.force || (args.output.is_none() && is_page_of(&page_at, &subject(&report)));
     if !force {
-        refuse_there(&page_at, &tables)?;
+        refuse_there(&page_at, &tables, &runs)?;
     } else if !args.force {
         say(&format!("note: replacing {}, an earlier report of this study (use -o to keep it)", page_at.display()));
     }
@@ -55,7 +65,14 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     }
     let existing = Existing::by(force);
     write_tables(&report, &tables, existing)?;
-    print(&matrix_text(&report))?;
+    worst::write(&report, &runs, existing)?.iter().for_each(|note| say(note));
+    report.runs = Some(file_name(&runs));
+    if args.json {
+        print(&json(&answer(&report))?)?;
+    } else {
+        print(&matrix_text(&report))?;
+        print(&format!("\n{}", paragraphs(&report)))?;
+    }
     deliver(&page_at, force, page(&report).as_bytes())
 }
 
@@ -69,7 +86,7 @@ fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), F
         let mut ours = args.folders.iter().flat_map(|f| names.map(|n| f.join(n)));
         ours.any(|ours| same(&ours, table))
     };
-    if let Some(table) = [&tables.numbers, &tables.samples].into_iter().find(|t| own(t)) {
+    if let Some(table) = [&tables.numbers, &tables.samples, &tables.distribution].into_iter().find(|t| own(t)) {
         return Err(Failure::with_help(
             format!("{} is a table of the sweep", table.display()),
             "give the page another name",
@@ -79,8 +96,9 @@ fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), F
 }
 
 /// Refuses existing files.
-fn refuse_there(page: &Path, tables: &Tables) -> Result<(), Failure> {
-    let there = [page, &tables.numbers, &tables.samples].into_iter().find(|path| path.exists());
+fn refuse_there(page: &Path, tables: &Tables, runs: &Path) -> Result<(), Failure> {
+    let all = [page, &tables.numbers, &tables.samples, &tables.distribution, runs];
+    let there = all.into_iter().find(|path| path.exists());
     there.map_or(Ok(()), |path| Err(FileProblem::Exists { path: path.to_owned() }.into()))
 }
 

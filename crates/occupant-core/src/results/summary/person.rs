@@ -96,6 +96,17 @@ impl Watched {
         }
     }
 
+    /// Signals of this body at rest; those of missing parts are NaN.
+    pub(super) fn at_rest(&self, samples: usize) -> Signals {
+        let mut signals = self.signals.clone();
+        for (n, values) in signals.all_mut().enumerate() {
+            let is_read = self.has.get(n / 3).is_none_or(|has| *has);
+            values.resize(samples, if is_read { 0.0 } else { f64::NAN });
+        }
+        signals.special.values_mut().for_each(|values| values.resize(samples, 0.0));
+        signals
+    }
+
     fn excursion(&self, own: &[Peak; FELT]) -> Option<Excursion> {
         let [forward, rearward, right, left, down, up] = std::array::from_fn(|i| own[EXCURSIONS + i]);
         (self.has_head && forward.value.is_finite()).then_some(Excursion { forward, rearward, left, right, up, down })

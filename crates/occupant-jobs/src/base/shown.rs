@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
-use crate::base::Told;
-use crate::base::text_table::{number, without_zeros};
+use super::Told;
+use super::text_table::{number, without_zeros};
 
 /// SI value of one display unit, and its symbol; empty for a plain number.
 pub fn shown_unit(unit: &Told) -> (f64, &str) {

@@ -1,9 +1,10 @@
 //! Designs and parameters in words.
 
-use occupant_study::{ApplyChoice, Design, Distribution, Law, Parameter, Study, Value};
+use occupant_study::{ApplyChoice, Change, Design, Distribution, Ensemble, Law, Parameter, Perturbation, Study, Value};
 
 use super::shown::{given, given_with_unit};
-use crate::base::Told;
+use super::text_table::trimmed;
+use super::{Told, Units};
 
 /// Largest number of list values or paths named.
 const NAMED: usize = 6;
@@ -42,8 +43,41 @@ fn alone(study: &Study) -> String {
 
 /// Description of a parameter's law.
 pub fn law(parameter: &Parameter, unit: &Told) -> String {
+    of_law(&parameter.law, parameter.apply, unit)
+}
+
+/// The random changes of an ensemble: each size once, with the paths that are changed so.
+pub fn ensemble(of: &Ensemble, units: Units) -> Vec<String> {
+    let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
+    for Perturbation { change, targets } in &of.perturbations {
+        let unit = units.told(targets.first().map_or("", |target| target.unit));
+        let words = match change {
+            Change::Offset(most) => format!("uniform within ± {}", given_with_unit(*most, &unit)),
+            Change::Factor(most) => format!("uniform within ± {} %", trimmed(100.0 * most, 3)),
+            Change::Drawn(law, ApplyChoice::Factor) => of_law(law, ApplyChoice::Factor, &units.told("")),
+            Change::Drawn(law, apply) => of_law(law, *apply, &unit),
+        };
+        let paths = targets.iter().map(|target| target.path.as_str());
+        match groups.iter_mut().find(|(known, _)| *known == words) {
+            Some((_, all)) => all.extend(paths),
+            None => groups.push((words, paths.collect())),
+        }
+    }
+    groups.into_iter().map(|(words, paths)| format!("{} {words}", some(&paths))).collect()
+}
+
+/// Some of these paths, and the number of the others.
+fn some(paths: &[&str]) -> String {
+    let named = paths.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
+    match paths.len().saturating_sub(NAMED) {
+        0 => named,
+        more => format!("{named} and {more} more"),
+    }
+}
+
+fn of_law(law: &Law, apply: ApplyChoice, unit: &Told) -> String {
     let range = |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
-    let text = match &parameter.law {
+    let text = match law {
         Law::List(values) => {
             let some: Vec<String> = values.iter().take(NAMED).map(|v| value(v, unit)).collect();
             let more = values.len().saturating_sub(NAMED);
@@ -66,7 +100,7 @@ pub fn law(parameter: &Parameter, unit: &Told) -> String {
         }
         Law::Table => "from the table".to_owned(),
     };
-    match parameter.apply {
+    match apply {
         ApplyChoice::Value => text,
         ApplyChoice::Factor => format!("{text}, a factor"),
         ApplyChoice::Offset => format!("{text}, an offset"),
@@ -82,13 +116,20 @@ fn value(value: &Value, unit: &Told) -> String {
     }
 }
 
+/// A parameter with its places, its law and the source of a built-in one.
+pub fn input(parameter: &Parameter, unit: &Told) -> String {
+    let places = places(parameter);
+    let places = if places == parameter.name { String::new() } else { format!(" ({places})") };
+    let source = match parameter.source {
+        "" => String::new(),
+        source => format!(" [ready distribution; {source}]"),
+    };
+    format!("{}{places}, {}{source}", parameter.name, law(parameter, unit))
+}
+
 /// Paths that a parameter changes.
 pub fn places(parameter: &Parameter) -> String {
-    let paths: Vec<&str> = parameter.targets.iter().take(NAMED).map(|t| t.path.as_str()).collect();
-    match parameter.targets.len().saturating_sub(NAMED) {
-        0 => paths.join(", "),
-        more => format!("{} and {more} more", paths.join(", ")),
-    }
+    some(&parameter.targets.iter().map(|target| target.path.as_str()).collect::<Vec<_>>())
 }
 
 /// The base scenario's value of a parameter.
