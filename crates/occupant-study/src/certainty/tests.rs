@@ -73,7 +73,7 @@ fn intervals_cover_the_true_quantiles_of_three_distributions() {
             least = part.into_iter().fold(least, f64::min);
         }
     }
-    // measured: 0.9525
+    // measured: 0.9603
     assert!(least > 0.945, "{least}");
 }
 
@@ -119,7 +119,7 @@ fn wilsons_interval_has_its_published_values_and_its_coverage() {
         weights.iter().enumerate().filter(|(i, _)| within(first + i)).map(|(_, w)| w).sum::<f64>()
     };
     let mean = (1..1000).map(|i| covered(f64::from(i) / 1000.0)).sum::<f64>() / 999.0;
-    // measured: 0.9519
+    // measured: 0.9517
     assert!((0.945..0.96).contains(&mean), "{mean}");
 }
 
