@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates with their rooms from the lowest to the highest.
-const ROOMS: [(&str, &[&str]); 10] = [
+const ROOMS: [(&str, &[&str]); 11] = [
     ("occupant-units", &["trig", "unit"]),
     ("crash-measures", &["signal", "correlation", "measure", "injury"]),
     (
@@ -125,13 +125,15 @@ const ROOMS: [(&str, &[&str]); 10] = [
             "search",
             "fit",
             "optimise",
+            "templates",
         ],
     ),
     ("occupant-cli", &["base", "commands"]),
+    ("occupant-web", &["rounded", "knobs", "case", "run", "study", "abi"]),
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.
-const CRATES: [(&str, &[&str]); 13] = [
+const CRATES: [(&str, &[&str]); 14] = [
     ("placed-text", &[]),
     ("occupant-units", &["placed-text"]),
     ("crash-measures", &["occupant-units"]),
@@ -162,6 +164,18 @@ const CRATES: [(&str, &[&str]); 13] = [
             "cardio-legacy",
             "occupant-files",
             "occupant-pictures",
+        ],
+    ),
+    (
+        "occupant-web",
+        &[
+            "placed-text",
+            "occupant-units",
+            "occupant-core",
+            "occupant-scenario",
+            "occupant-study",
+            "occupant-files",
+            "occupant-jobs",
         ],
     ),
     (

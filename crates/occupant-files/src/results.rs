@@ -65,8 +65,15 @@ impl Results {
             let found = format!("{} cannot be read: there is no such file", path.display());
             Failure::with_help(found, "check the path; `occupant run SCENARIO.toml` writes a result file")
         };
-        let bytes = input_file::read(path).map_err(|e| if is_there { e } else { absent() })?;
-        let mut run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
+        Results::of_bytes(path, &input_file::read(path).map_err(|e| if is_there { e } else { absent() })?)
+    }
+
+    /// The same from the bytes of a file with this name.
+    ///
+    /// # Errors
+    /// As [`Results::open`].
+    pub fn of_bytes(path: &Path, bytes: &[u8]) -> Result<Self, Failure> {
+        let mut run = StoredRun::read(bytes).map_err(|e| no_results(path, &e))?;
         if run.is_drive {
             let found = format!("{} contains a drive without occupants", path.display());
             let help = "`occupant run` of its scenario simulates the occupants; MCAP viewers show the drive";
@@ -96,7 +103,7 @@ impl Results {
         let text = name.and_then(|n| run.attachments.get(n));
         Ok(Results {
             path: path.to_owned(),
-            sha256: sha256(&bytes),
+            sha256: sha256(bytes),
             lost,
             flaw,
             scenario_text: text.map(|t| String::from_utf8_lossy(t).into_owned()),

@@ -51,3 +51,4 @@ pub mod sensitivity;
 pub mod study;
 pub mod surface;
 pub mod sweep;
+pub mod templates;

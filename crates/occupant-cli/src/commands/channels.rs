@@ -8,7 +8,6 @@ use occupant_core::results::channel::{Channel, channels as all_of};
 use occupant_scenario::{Draft, Format};
 use placed_text::did_you_mean;
 
-use super::new::STARTER;
 use crate::base::text_table::{Align, Table};
 use crate::base::{Failure, by_ending, ending, talk};
 use occupant_files::results::Results;
@@ -113,7 +112,8 @@ fn model_of(file: &Path) -> Result<Model, Failure> {
 
 fn starter() -> Result<Model, Failure> {
     let wrong = |problems| Failure::plain(format!("the starter scenario cannot be read: {problems}"));
-    let draft = Draft::read_bytes(STARTER.as_bytes(), Some(Format::Toml), "starter").map_err(wrong)?;
+    let draft = Draft::read_bytes(occupant_jobs::templates::STARTER.as_bytes(), Some(Format::Toml), "starter")
+        .map_err(wrong)?;
     let loaded = draft.load(&|name| Err(format!("{name}: it must not name files"))).map_err(wrong)?;
     Ok(loaded.model().map_err(wrong)?.0)
 }

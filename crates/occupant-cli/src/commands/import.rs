@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use occupant_scenario::kind::{FREQUENCY, KINDS, LENGTH, SPEED, TIME};
 
 use super::flags::history::{WindowArgs, interval};
-use super::new::with_path;
 use crate::base::{Failure, ending, file_name, file_stem, note, one_of, publish, quoted, refuse_input, say};
 use occupant_files::measured::{self, AXES, Axes, Imported, Reading};
 use occupant_jobs::import::{Made, PathFilter, PathTable, Request, import as made};
@@ -199,5 +198,5 @@ fn scenario(source: &Path, imported: &Imported, path: &PathTable, file: &str) ->
     let begin = if from_s == 0.0 { String::new() } else { format!("start = {from_s:?}\n") };
     let time = format!("[time]                      # all of the path\n{begin}end = {to_s:?}                   # s\n");
     let section = format!("{time}\n[path]\n{keys}\nfile = {}\n", text(file));
-    with_path(&text(&title), &text(&origin), &section)
+    occupant_jobs::templates::with_path(&text(&title), &text(&origin), &section)
 }

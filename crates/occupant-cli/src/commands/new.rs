@@ -1,14 +1,12 @@
 //! `occupant new`.
 
-mod template;
-
 use std::path::PathBuf;
 
-use crate::base::{Failure, publish, quoted, say};
-use template::Template;
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
 
-/// The default template.
-pub(super) const STARTER: &str = include_str!("new/driver.toml");
+use crate::base::{Failure, publish, quoted, say};
+use occupant_jobs::templates::Template;
 
 /// Write a commented scenario or study that is ready to run
 #[derive(Debug, clap::Args)]
@@ -19,7 +17,7 @@ pub(crate) struct Args {
 
     /// The template
     #[arg(short, long, value_enum, default_value_t)]
-    template: Template,
+    template: Named,
 
     /// Replace an existing file
     #[arg(short, long)]
@@ -30,15 +28,28 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-/// The driver's scenario with another title and path; all three as TOML.
-pub(super) fn with_path(title: &str, origin: &str, section: &str) -> String {
-    let head = "# A belted driver in a generic car, on the vehicle path of a test: change body, posture, belts and interior to those of the test.\n\n";
-    let changed = template::changed(STARTER, &format!("{head}title = {title}\n\n{section}"));
-    let line = |line: &str| match line.starts_with("path = ") {
-        true => format!("path = {origin}\n"),
-        false => line.to_owned(),
-    };
-    changed.split_inclusive('\n').map(line).collect()
+/// A template by its name on the command line.
+#[derive(Clone, Copy, Debug, Default)]
+struct Named(Template);
+
+impl ValueEnum for Named {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Named; Template::ALL.len()] = {
+            let mut all = [Named(Template::Driver); Template::ALL.len()];
+            let mut i = 0;
+            while i < all.len() {
+                all[i] = Named(Template::ALL[i]);
+                i += 1;
+            }
+            all
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, meaning) = self.0.words();
+        Some(PossibleValue::new(name).help(meaning))
+    }
 }
 
 /// Writes the starter scenario.
@@ -51,9 +62,9 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     if file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("toml")) {
         return Err(Failure::with_help(format!("{name}: the template is written as TOML"), "use the extension .toml"));
     }
-    publish(&file, args.force, args.template.text().as_bytes())?;
+    publish(&file, args.force, args.template.0.text().as_bytes())?;
     if !args.quiet {
-        say(&format!("wrote {name}\nnext: {}", args.template.next(&quoted(&name))));
+        say(&format!("wrote {name}\nnext: {}", args.template.0.next(&quoted(&name))));
     }
     Ok(())
 }

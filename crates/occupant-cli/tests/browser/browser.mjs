@@ -21,8 +21,8 @@ const FLAGS = [
 const DRIVER = /GL Driver Message \(OpenGL, Performance/;
 
 /**
- * Runs `work(open)`, where `open(file, viewport, scheme)` gives a page with `complaints` and `requests`. The page of a study
- * draws nothing itself.
+ * Runs `work(open)`, where `open(file, viewport, scheme)` gives a page with `complaints` and `requests`; a file may be an
+ * address. The page of a study draws nothing itself.
  */
 export async function withBrowser(work) {
   const profile = mkdtempSync(join(tmpdir(), "occupant-browser-"));
@@ -45,8 +45,9 @@ export async function withBrowser(work) {
       });
       page.on("pageerror", (error) => page.complaints.push(String(error)));
       page.on("request", (request) => page.requests.push(request.url()));
-      await page.goto(`file://${file}`);
-      const isDrawn = () => document.querySelector(".study") || window.occupantReport?.stage?.frames > 0;
+      await page.goto(/^https?:/.test(file) ? file : `file://${file}`);
+      const isDrawn = () =>
+        document.querySelector(".study") || window.occupantReport?.stage?.frames > 0 || window.occupantPage?.times.first;
       await page.waitForFunction(isDrawn, null, { timeout: 60000 });
       return page;
     });

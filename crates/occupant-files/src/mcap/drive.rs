@@ -8,11 +8,12 @@ use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
 use mcap::records::Metadata;
-use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
+use mcap::{Attachment, McapResult, WriteOptions, Writer};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use occupant_core::quantity::Kind;
 use occupant_core::results::catalogue::{Field, Message};
 
+use super::COMPRESSION;
 use super::about::Document;
 use super::channel::{Channel, Schemas};
 use super::clock::nanoseconds;
@@ -79,11 +80,8 @@ impl DriveFile {
     /// # Errors
     /// What `target` reports.
     pub fn write<W: Write + Seek>(&self, target: W) -> McapResult<W> {
-        let mut file = WriteOptions::new()
-            .profile("")
-            .library(self.program.clone())
-            .compression(Some(Compression::Lz4))
-            .create(target)?;
+        let mut file =
+            WriteOptions::new().profile("").library(self.program.clone()).compression(COMPRESSION).create(target)?;
         self.write_documents(&mut file)?;
         let schemas = Schemas::default();
         let mut still = schemas.add_foxglove(&mut file, DRIVE_SCENE, SCENE_UPDATE)?;

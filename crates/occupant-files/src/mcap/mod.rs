@@ -30,6 +30,15 @@ pub use about::{About, Document};
 pub use recorder::{McapOptions, McapRecorder};
 pub use stored::StoredRun;
 
+/// Compression of the chunks: none in a browser.
+const COMPRESSION: Option<mcap::Compression> = {
+    #[cfg(not(target_family = "wasm"))]
+    let of_chunks = Some(mcap::Compression::Lz4);
+    #[cfg(target_family = "wasm")]
+    let of_chunks = None;
+    of_chunks
+};
+
 /// The messages of every output, in writing order: those of the model's catalogue, and the checkpoint.
 pub fn messages(model: &Model) -> Vec<Message> {
     let mut messages = catalogue::messages(model);

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::io::{Seek, Write};
 use std::num::NonZeroU32;
 
-use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
+use mcap::{Attachment, McapResult, WriteOptions, Writer};
 use occupant_core::model::Model;
 use occupant_core::results::catalogue::Message;
 use occupant_core::results::outcome::Outcome;
@@ -19,7 +19,7 @@ use super::log::Names;
 use super::press::Press;
 use super::transforms::FrameNames;
 use super::wire::Wire;
-use super::{about, checkpoint, layout, log, messages, scene, topics, transforms};
+use super::{COMPRESSION, about, checkpoint, layout, log, messages, scene, topics, transforms};
 
 /// Settings of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,7 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
         let writer = WriteOptions::new()
             .profile("")
             .library(about.program.clone())
-            .compression(Some(Compression::Lz4))
+            .compression(COMPRESSION)
             // a chunk goes to the file whole or not at all
             .disable_seeking(true)
             .create(target)?;

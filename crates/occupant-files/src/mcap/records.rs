@@ -230,6 +230,16 @@ fn unpacked(packed: &[u8], size: u64, room: &mut u64) -> Result<Vec<u8>, &'stati
     }
     *room = room.checked_sub(size).ok_or("a chunk that unpacks to more bytes than possible")?;
     let mut content = Vec::with_capacity(size as usize);
-    let read = lz4::Decoder::new(packed).and_then(|decoder| decoder.take(size + 1).read_to_end(&mut content));
+    let read = unpacking(packed).and_then(|decoder| decoder.take(size + 1).read_to_end(&mut content));
     read.map(|_| content).map_err(|_| "a chunk that cannot be unpacked")
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn unpacking(packed: &[u8]) -> std::io::Result<impl Read> {
+    lz4::Decoder::new(packed)
+}
+
+#[cfg(target_family = "wasm")]
+fn unpacking(packed: &[u8]) -> std::io::Result<impl Read> {
+    Ok(lz4_flex::frame::FrameDecoder::new(packed))
 }

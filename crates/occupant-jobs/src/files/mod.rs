@@ -1,5 +1,6 @@
 //! Messages about opened files, and the folders of studies.
 
+pub mod edited;
 pub mod history;
 pub mod scenario;
 pub mod study_folder;

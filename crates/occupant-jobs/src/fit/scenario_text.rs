@@ -5,11 +5,11 @@
 
 use occupant_scenario::{Draft, Format, Scenario};
 use occupant_study::{Assignment, Parameter};
-use placed_text::{Step, parse_path};
 use serde::Serialize;
-use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
+use toml_edit::{Item, Table, value};
 
 use super::Experiment;
+use crate::files::edited::with_changes;
 use crate::files::scenario::format_of;
 
 /// Significant digits of fitted numbers.
@@ -83,21 +83,9 @@ fn says(experiment: &Experiment, text: &str, wanted: &Scenario) -> bool {
 
 /// The author's text with all changes by the study, the command line and the fit.
 fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, String)]) -> Option<String> {
-    let mut document: DocumentMut = experiment.text.parse().ok()?;
-    let changes = experiment.study.changes.iter();
-    let numbers = numbers.iter().map(|n| (&n.path, &n.text));
-    for (path, text) in changes.map(|(p, t)| (p, t)).chain(numbers) {
-        let new = text.parse().unwrap_or_else(|_| Value::from(text.as_str()));
-        // a path with wildcards stands for many places
-        let places = if path.contains('*') { experiment.study.base.places(path).ok()? } else { Vec::new() };
-        let mut paths: Vec<&str> = places.iter().map(|p| p.path.as_str()).collect();
-        if paths.is_empty() {
-            paths.push(path);
-        }
-        for path in paths {
-            put(document.as_item_mut(), &parse_path(path).ok()?, new.clone())?;
-        }
-    }
+    let changes = experiment.study.changes.iter().map(|(path, text)| (path.as_str(), text.as_str()));
+    let numbers = numbers.iter().map(|n| (n.path.as_str(), n.text.as_str()));
+    let mut document = with_changes(&experiment.text, changes.chain(numbers), &experiment.study.base)?;
     if !provenance.is_empty() {
         let table = document.entry("provenance");
         let table = table.or_insert(Item::Table(Table::new())).as_table_like_mut()?;
@@ -106,43 +94,4 @@ fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, S
         }
     }
     Some(document.to_string())
-}
-
-/// Sets a value at a path, keeping blanks and comments of the old one; none if the path does not exist and cannot be
-/// created.
-fn put(item: &mut Item, steps: &[Step], mut new: Value) -> Option<()> {
-    let Some((step, rest)) = steps.split_first() else {
-        let old = item.as_value_mut()?;
-        *new.decor_mut() = old.decor().clone();
-        *old = new;
-        return Some(());
-    };
-    let inline = item.is_inline_table();
-    let next = match (step, item) {
-        (Step::Every, _) => return None,
-        (Step::Index(i), item) => item.get_mut(*i)?,
-        (Step::Key(name), Item::ArrayOfTables(tables)) => {
-            let named = |t: &Table| t.get("name").and_then(Item::as_str) == Some(name);
-            let place = tables.iter().position(named)?;
-            return put_in_table(tables.get_mut(place)?, false, rest, new);
-        }
-        (Step::Key(_), item) => return put_in_table(item.as_table_like_mut()?, inline, steps, new),
-    };
-    put(next, rest, new)
-}
-
-/// Sets a value below a table, creating missing parents.
-fn put_in_table(table: &mut dyn TableLike, inline: bool, steps: &[Step], new: Value) -> Option<()> {
-    let (Step::Key(key), rest) = steps.split_first()? else {
-        return None;
-    };
-    if !table.contains_key(key) {
-        let blank = match (rest.is_empty(), inline) {
-            (true, _) => Item::Value(new.clone()),
-            (false, true) => value(InlineTable::new()),
-            (false, false) => Item::Table(Table::new()),
-        };
-        table.insert(key, blank);
-    }
-    put(table.get_mut(key)?, rest, new)
 }

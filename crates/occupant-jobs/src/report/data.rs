@@ -3,7 +3,12 @@
 use nalgebra::Point3;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
-use occupant_core::results::summary::Caveat;
+use occupant_core::model::Model;
+use occupant_core::results::channel::Series;
+use occupant_core::results::outcome::Outcome;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{Caveat, Summary};
 use occupant_core::vehicle::VehiclePath;
 use serde::Serialize;
 
@@ -107,6 +112,83 @@ struct SurfaceData {
     normal: [f64; 3],
 }
 
+/// Records what a page shows of a run, output by output.
+#[derive(Debug)]
+pub struct Gathered {
+    motion: Motion,
+    series: Series,
+    ride: RideDown,
+}
+
+/// What a page tells of a run beside its outputs.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// Name of the run on the page.
+    pub label: String,
+    /// Notes to read before using the results.
+    pub notes: Vec<String>,
+    /// Origin of the run: keys and values.
+    pub origin: Vec<[String; 2]>,
+    /// The scenario as its author wrote it.
+    pub scenario: String,
+}
+
+impl Gathered {
+    /// A recorder of a run of the model.
+    pub fn new(model: &Model) -> Self {
+        Gathered { motion: Motion::default(), series: curves::series(model), ride: RideDown::default() }
+    }
+
+    /// The run on the page.
+    pub fn run(self, model: &Model, summary: &Summary, told: Told, units: Units) -> Run {
+        let Gathered { motion, series, ride } = self;
+        let mut times = Array::default();
+        times.float64(&series.time_s);
+        let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
+        let mut notes = told.notes;
+        notes.extend(model.warnings().iter().map(|w| w.to_string()));
+        let (remarks, caveats): (Vec<&Caveat>, Vec<&Caveat>) =
+            summary.caveats.iter().partition(|caveat| caveat.is_note());
+        notes.extend(remarks.iter().map(|note| note.text.clone()));
+        let mut provenance = provenance::ending(summary, series.time_s.len());
+        provenance.extend(told.origin);
+        Run {
+            label: told.label,
+            title: model.setup().title.clone(),
+            facts: provenance::facts(model, summary, units),
+            notes,
+            caveats: caveats.iter().map(|caveat| caveat.text.clone()).collect(),
+            times,
+            segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
+            parts: parts(model.body()).iter().map(PartData::of).collect(),
+            spheres: spheres(model),
+            surfaces: surfaces(model).into_iter().chain(sides(model)).chain(scenery(model)).collect(),
+            motion,
+            plots: curves::plots(&series, &prefixes, units),
+            measures: measures::measures(summary, &ride, units),
+            force_unit: units.over("kN"),
+            speed_unit: units.over("m/s"),
+            first_contacts: summary.contacts.clone(),
+            provenance,
+            scenario: told.scenario,
+        }
+    }
+}
+
+impl Recorder for Gathered {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        (&mut self.ride, (&mut self.motion, &mut self.series)).begin(model)
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        (&mut self.ride, (&mut self.motion, &mut self.series)).record(sample)
+    }
+
+    fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
+        (&mut self.ride, (&mut self.motion, &mut self.series)).end(outcome)
+    }
+}
+
 impl Run {
     /// Name of a run on the page.
     pub(super) fn label_of(results: &Results) -> String {
@@ -118,37 +200,15 @@ impl Run {
     /// # Errors
     /// None for a file that was opened.
     pub fn of(results: &Results, units: Units) -> Result<Self, Failure> {
-        let model = &results.model;
-        let (mut motion, mut series, mut times) = (Motion::default(), curves::series(model), Array::default());
-        let mut ride = RideDown::default();
-        results.replay((&mut ride, (&mut motion, &mut series)))?;
-        times.float64(&series.time_s);
-        let summary = results.summary()?;
-        let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
-        let mut notes = results.notes();
-        notes.extend(model.warnings().iter().map(|w| w.to_string()));
-        let (told, caveats): (Vec<&Caveat>, Vec<&Caveat>) = summary.caveats.iter().partition(|caveat| caveat.is_note());
-        notes.extend(told.iter().map(|note| note.text.clone()));
-        Ok(Run {
+        let mut gathered = Gathered::new(&results.model);
+        results.replay(&mut gathered)?;
+        let told = Told {
             label: Run::label_of(results),
-            title: model.setup().title.clone(),
-            facts: provenance::facts(results, &summary, units),
-            notes,
-            caveats: caveats.iter().map(|caveat| caveat.text.clone()).collect(),
-            times,
-            segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
-            parts: parts(model.body()).iter().map(PartData::of).collect(),
-            spheres: spheres(results),
-            surfaces: surfaces(results).into_iter().chain(sides(results)).chain(scenery(results)).collect(),
-            motion,
-            plots: curves::plots(&series, &prefixes, units),
-            measures: measures::measures(&summary, &ride, units),
-            force_unit: units.over("kN"),
-            speed_unit: units.over("m/s"),
-            first_contacts: summary.contacts.clone(),
-            provenance: provenance::lines(results, &summary),
+            notes: results.notes(),
+            origin: provenance::origin(results),
             scenario: results.scenario_text.clone().unwrap_or_default(),
-        })
+        };
+        Ok(gathered.run(&results.model, &results.summary()?, told, units))
     }
 }
 
@@ -167,8 +227,8 @@ impl PartData {
     }
 }
 
-fn spheres(results: &Results) -> Vec<SphereData> {
-    let body = results.model.body();
+fn spheres(model: &Model) -> Vec<SphereData> {
+    let body = model.body();
     let data = |s: &occupant_core::body::ContactSphere| SphereData {
         name: s.name.clone(),
         segment: s.segment.index(),
@@ -178,11 +238,10 @@ fn spheres(results: &Results) -> Vec<SphereData> {
     body.spheres.iter().map(data).collect()
 }
 
-fn surfaces(results: &Results) -> Vec<SurfaceData> {
-    let model = &results.model;
+fn surfaces(model: &Model) -> Vec<SurfaceData> {
     let all = model.setup().surfaces.iter().zip(model.faces());
     all.map(|(surface, face)| {
-        if !is_shown(results, face.frame) {
+        if !is_shown(model, face.frame) {
             return SurfaceData::hidden(&surface.name, surface.material);
         }
         let bounded = !matches!(face.outline, Outline::Unbounded { .. });
@@ -204,18 +263,18 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
 }
 
 /// Road, tyre marks, barriers and the exterior of the vehicle, without contacts.
-fn scenery(results: &Results) -> Vec<SurfaceData> {
-    let drawn = results.model.setup().scenery.iter().filter(|own| is_shown(results, own.frame));
+fn scenery(model: &Model) -> Vec<SurfaceData> {
+    let drawn = model.setup().scenery.iter().filter(|own| is_shown(model, own.frame));
     let plates =
         drawn.flat_map(|own| own.polygons_m.iter().filter(|corners| corners.len() > 2).map(|p| (own.frame, p)));
     plates.map(|(frame, corners)| SurfaceData::plate(frame, SCENERY, "", corners)).collect()
 }
 
 /// The first faces of all solids, then the others.
-fn sides(results: &Results) -> Vec<SurfaceData> {
+fn sides(model: &Model) -> Vec<SurfaceData> {
     let (mut first, mut others) = (Vec::new(), Vec::new());
-    for solid in &results.model.setup().solids {
-        if !is_shown(results, solid.frame) {
+    for solid in &model.setup().solids {
+        if !is_shown(model, solid.frame) {
             first.push(SurfaceData::hidden(&solid.name, solid.material));
             continue;
         }
@@ -264,11 +323,11 @@ impl SurfaceData {
 const SCENERY: usize = 5;
 
 /// Whether the page can show a frame: the vehicle, space, or the ground.
-fn is_shown(results: &Results, frame: Frame) -> bool {
+fn is_shown(model: &Model, frame: Frame) -> bool {
     match frame {
         Frame::Vehicle | Frame::Space => true,
         Frame::Other(i) => {
-            let frame = &results.model.setup().frames[i];
+            let frame = &model.setup().frames[i];
             frame.parent.is_none() && matches!(frame.path, VehiclePath::Fixed(_))
         }
         Frame::Segment(_) => false,

@@ -16,7 +16,7 @@ mod vehicles;
 use crate::base::{Failure, Units, program};
 use occupant_files::results::Results;
 
-pub use data::{Report, subject};
+pub use data::{Gathered, Report, Run, Told, subject};
 
 /// Largest number of runs on a page: each has its own colour.
 pub const MOST_RUNS: usize = 4;
@@ -27,6 +27,6 @@ pub const MOST_RUNS: usize = 4;
 /// None for files that were opened.
 pub fn page(runs: &[Results], units: Units) -> Result<String, Failure> {
     let vehicles = vehicles::vehicles(runs, units);
-    let runs = runs.iter().map(|run| data::Run::of(run, units)).collect::<Result<_, _>>()?;
+    let runs = runs.iter().map(|run| Run::of(run, units)).collect::<Result<_, _>>()?;
     page::fill(&Report { program: program(), runs }, vehicles)
 }

@@ -14,6 +14,7 @@ use crate::base::{Existing, Failure, PartialFile, ending, file_name, input_file,
 use crate::files::scenario::{Opened, ScenarioArgs, inputs};
 use occupant_files::mcap::about::RESOLVED;
 use occupant_files::mcap::{About, Document, McapOptions, McapRecorder};
+use occupant_scenario::Loaded;
 
 /// A recorder that writes a file, or none.
 pub struct Recording(Option<Open>);
@@ -69,7 +70,11 @@ impl Recording {
         opened: &Opened,
         from: Option<&Resumption>,
     ) -> Result<Self, Failure> {
-        let mut about = about(args, opened)?;
+        let overrides = &args.overrides;
+        let mut about = about(&file_name(&args.scenario), &opened.bytes, overrides, &opened.loaded)?;
+        if opened.deck.is_some() {
+            about.scenario.media_type = "text/plain".to_owned();
+        }
         if let Some(from) = from {
             from.keep_from(name, &partial_path(name))?;
             about.notes.extend(from.notes());
@@ -153,32 +158,36 @@ fn unwritten(partial: &Path, error: &(dyn Error + 'static)) -> Failure {
     Failure::broke_off(reason(partial, error))
 }
 
-/// Metadata about the origin of the run, independent of date and machine.
-fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
-    let resolved = opened.loaded.explicit().to_toml();
+/// Metadata about the origin of the run, independent of date and machine: the name and the bytes of its scenario, the
+/// changes, and what came of them.
+///
+/// # Errors
+/// A scenario that a result file cannot hold.
+pub fn about(name: &str, bytes: &[u8], overrides: &[String], loaded: &Loaded) -> Result<About, Failure> {
+    let resolved = loaded.explicit().to_toml();
     let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written: {e}")))?;
     // nothing is written that is refused when it is read
     input_file::scenario_fits(resolved.as_bytes()).map_err(|error| {
         let found = format!("the scenario, with all defaults written out, is too long for a result file: {error}");
         Failure::with_help(found, "shorten its lists and notes, or use --no-mcap")
     })?;
-    let media_type = match args.scenario.extension() {
-        _ if opened.deck.is_some() => "text/plain",
-        Some(e) if e.eq_ignore_ascii_case("json") => "application/json",
+    let media_type = match ending(Path::new(name)).as_str() {
+        "json" => "application/json",
         _ => "application/toml",
     };
     let mut notes = BTreeMap::new();
-    if !args.overrides.is_empty() {
-        notes.insert("overrides".to_owned(), args.overrides.join("\n"));
+    if !overrides.is_empty() {
+        notes.insert("overrides".to_owned(), overrides.join("\n"));
     }
     Ok(About {
         program: program(),
-        scenario: document(&file_name(&args.scenario), media_type, opened.bytes.clone()),
+        scenario: document(name, media_type, bytes.to_vec()),
         resolved: Some(document(RESOLVED, "application/toml", resolved.into_bytes())),
         notes,
     })
 }
 
-fn document(name: &str, media_type: &str, content: Vec<u8>) -> Document {
+/// A text to be stored with the results.
+pub fn document(name: &str, media_type: &str, content: Vec<u8>) -> Document {
     Document { name: name.to_owned(), media_type: media_type.to_owned(), content }
 }

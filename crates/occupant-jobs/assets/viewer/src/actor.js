@@ -36,6 +36,14 @@ export class Actor {
     this.shown = {};
   }
 
+  /** Gives the memory of the drawing back. */
+  release() {
+    this.group.traverse((node) => {
+      if (node.geometry && !node.geometry.userData.isKept) node.geometry.dispose();
+      if (node.material) node.material.dispose();
+    });
+  }
+
   show(shown) {
     this.shown = shown;
     this.belts.group.visible = shown.belts;

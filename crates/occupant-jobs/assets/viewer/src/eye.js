@@ -30,6 +30,13 @@ export class Eye {
     this.last = this.followedPlace();
   }
 
+  /** Another run of the same scene. */
+  setActor(actor) {
+    this.actor = actor;
+    if (this.followed >= actor.run.segments.length) this.followed = -1;
+    this.last = this.followedPlace();
+  }
+
   /** Looks at the whole scene from one side. */
   look(preset) {
     this.preset = preset;

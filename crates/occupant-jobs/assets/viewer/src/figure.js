@@ -31,7 +31,7 @@ export class Figure {
     const tones = number === 0 ? TONES : OTHER_TONES[number - 1];
     this.meshes = run.segments.map((name, segment) => {
       const parts = run.parts.filter((part) => part.segment === segment);
-      const mesh = new Mesh(mergeGeometries(parts.map((part) => hull(part, tones))), this.material);
+      const mesh = new Mesh(shape(parts, tones), this.material);
       mesh.name = name;
       mesh.frustumCulled = false;
       this.group.add(mesh);
@@ -88,6 +88,23 @@ function buildSpheres(run) {
   const spheres = new InstancedMesh(new SphereGeometry(1, 18, 12), material, run.spheres.length);
   spheres.frustumCulled = false;
   return spheres;
+}
+
+/** Shapes that were made before: bodies of runs that follow each other are mostly the same. */
+const SHAPES = new Map();
+const MOST_SHAPES = 200;
+
+/** The parts of a segment as one. */
+function shape(parts, tones) {
+  const key = JSON.stringify([parts, tones]);
+  let made = SHAPES.get(key);
+  if (!made) {
+    made = mergeGeometries(parts.map((part) => hull(part, tones)));
+    made.userData.isKept = true;
+    if (SHAPES.size >= MOST_SHAPES) SHAPES.clear();
+    SHAPES.set(key, made);
+  }
+  return made;
 }
 
 /** The convex hull of two ellipsoids, smooth, in one colour. */

@@ -5,9 +5,11 @@ import { PRESETS } from "./eye.js";
 /** Outputs that an arrow with shift skips. */
 const LEAP = 10;
 
-export function listenToKeys(clock, stage) {
-  document.addEventListener("keydown", (event) => {
+/** Keys pressed within `root` move the clock and the camera that `now` gives. */
+export function listenToKeys(now, root = document) {
+  root.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || isTaken(event)) return;
+    const { clock, stage } = now();
     const act = action(event, clock, stage);
     if (!act) return;
     event.preventDefault();

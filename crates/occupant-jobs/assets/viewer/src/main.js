@@ -23,7 +23,7 @@ try {
 buildControls(page.controls, clock, stage, report.runs);
 buildPlots(page.plots, report.runs, clock);
 buildTables(page.tables, report.runs, clock);
-listenToKeys(clock, stage);
+listenToKeys(() => ({ clock, stage }));
 
 // for scripts and tests
 window.occupantReport = { clock, stage, runs: report.runs };

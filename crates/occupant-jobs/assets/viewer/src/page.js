@@ -58,7 +58,7 @@ export function swatch(run) {
 export const caveatName = (run, place) => `caveat-${run + 1}-${place + 1}`;
 
 /** What was seen in a run that spoils figures, numbered as the marks of the figures are. */
-function caveats(run, number, several) {
+export function caveats(run, number, several) {
   if (run.caveats.length === 0) return null;
   const items = run.caveats.map((text, place) =>
     element("li", { id: caveatName(number, place) }, text),
@@ -73,7 +73,7 @@ function caveats(run, number, several) {
   );
 }
 
-function notes(run, several) {
+export function notes(run, several) {
   const said = run.notes.map((note) => (several ? `${run.label}: ${note}` : note));
   return said.map((note) => element("p", { class: "note", role: "note" }, note));
 }

@@ -25,9 +25,9 @@ export function buildPlots(root, runs, clock) {
   const charts = runs[0].plots.map((plot) => new Chart(root, plot.title, runs, clock));
   const width = new ResizeObserver(() => charts.forEach((chart) => chart.fit()));
   width.observe(root);
-  window
-    .matchMedia("(prefers-color-scheme: dark)")
-    .addEventListener("change", () => charts.forEach((chart) => chart.chart.redraw()));
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  const redraw = () => charts.forEach((chart) => chart.chart.redraw());
+  dark.addEventListener("change", redraw);
   let said = 0;
   clock.listen(() => {
     const now = performance.now();
@@ -35,6 +35,12 @@ export function buildPlots(root, runs, clock) {
     if (tell) said = now;
     for (const chart of charts) chart.show(clock.time, tell);
   });
+  /** Takes the plots away. */
+  return () => {
+    width.disconnect();
+    dark.removeEventListener("change", redraw);
+    for (const chart of charts) chart.release();
+  };
 }
 
 /** How the lines of the runs are broken, and the classes of their legends. */
@@ -86,11 +92,17 @@ class Chart {
     this.listen(clock);
     this.fit();
     this.seen = true;
-    const observer = new IntersectionObserver(([entry]) => {
+    this.observer = new IntersectionObserver(([entry]) => {
       this.seen = entry.isIntersecting;
       this.show(clock.time, true);
     });
-    observer.observe(this.figure);
+    this.observer.observe(this.figure);
+  }
+
+  release() {
+    this.observer.disconnect();
+    this.chart.destroy();
+    this.figure.remove();
   }
 
   /** One table of all times, as the plot library wants it. */

@@ -25,8 +25,6 @@ const BESIDE_M = 2;
 export class Stage {
   constructor(place, runs, clock) {
     this.place = place;
-    this.runs = runs;
-    this.clock = clock;
     this.frames = 0;
     this.shown = {
       surfaces: true,
@@ -36,10 +34,11 @@ export class Stage {
       labels: false,
       spheres: false,
     };
-    this.other = runs.length > 2 ? "beside" : "ghost";
     this.world = "vehicle";
     this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware() });
     this.resolution = new Resolution(this.renderer, clock);
+    this.pending = false;
+    this.actors = [];
     this.canvas = this.renderer.domElement;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "The occupant in the compartment, in three dimensions");
@@ -48,23 +47,44 @@ export class Stage {
     this.light();
     this.camera = new PerspectiveCamera(35, 1, 0.05, 200);
     this.camera.up.set(0, 0, -1);
-    this.actors = runs.map((run, number) => new Actor(run, number));
-    this.actors.forEach((actor) => this.scene.add(actor.group));
-    const greatest = Math.max(...this.actors.map((actor) => actor.arrows.greatest));
-    this.actors.forEach((actor) => actor.arrows.setGreatest(greatest));
-    this.eye = new Eye(this.camera, this.canvas, this.actors[0], () => this.draw());
-    this.labels = new Labels(place, this.actors[0], this.camera);
-    this.pending = false;
     new ResizeObserver(() => this.resize()).observe(place);
     window
       .matchMedia("(prefers-color-scheme: dark)")
       .addEventListener("change", () => this.paint());
     this.paint();
+    this.put(runs, clock);
     this.resize();
     this.show({});
-    this.setOther(this.other);
+    this.setOther(runs.length > 2 ? "beside" : "ghost");
     this.eye.look("oblique");
     clock.listen(() => this.move());
+  }
+
+  /** Shows other runs from where the camera is. */
+  replace(runs, clock) {
+    for (const actor of this.actors) {
+      this.scene.remove(actor.group);
+      actor.release();
+    }
+    this.labels.layer.remove();
+    const count = this.runs.length;
+    this.put(runs, clock);
+    this.show({});
+    if (runs.length !== count) this.setOther(runs.length > 2 ? "beside" : "ghost");
+    clock.listen(() => this.move());
+  }
+
+  put(runs, clock) {
+    this.runs = runs;
+    this.clock = clock;
+    this.resolution.clock = clock;
+    this.actors = runs.map((run, number) => new Actor(run, number));
+    this.actors.forEach((actor) => this.scene.add(actor.group));
+    const greatest = Math.max(...this.actors.map((actor) => actor.arrows.greatest));
+    this.actors.forEach((actor) => actor.arrows.setGreatest(greatest));
+    if (this.eye) this.eye.setActor(this.actors[0]);
+    else this.eye = new Eye(this.camera, this.canvas, this.actors[0], () => this.draw());
+    this.labels = new Labels(this.place, this.actors[0], this.camera);
   }
 
   light() {

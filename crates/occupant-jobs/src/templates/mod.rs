@@ -1,38 +1,39 @@
 //! The templates of `occupant new`: a driver's scenario, and the changes of the others, section by section.
 
-use super::STARTER;
+/// The default template.
+pub const STARTER: &str = include_str!("driver.toml");
 
-/// A scenario to start from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Template {
-    /// A belted driver, 50 km/h into a stop
+/// A scenario or study to start from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Template {
+    /// A belted driver, 50 km/h into a stop.
     #[default]
     Driver,
-    /// The same in a right-hand-drive car
+    /// The same in a right-hand-drive car.
     RightHandDrive,
-    /// A belted passenger behind the driver, 50 km/h into a stop
+    /// A belted passenger behind the driver.
     RearSeat,
-    /// A belted driver struck on the near side
+    /// A belted driver struck on the near side.
     Side,
-    /// A belted driver struck on the far side
+    /// A belted driver struck on the far side.
     FarSide,
-    /// A driver struck from behind
+    /// A driver struck from behind.
     Rear,
-    /// A belted driver in a quarter-turn rollover
+    /// A belted driver in a quarter-turn rollover.
     Rollover,
-    /// A belted driver in a crash recorded by an event data recorder
+    /// A crash recorded by an event data recorder.
     Edr,
-    /// A belted occupant on a sled, with a tabulated pulse
+    /// A belted occupant on a sled.
     Sled,
-    /// Head and neck of a living volunteer driven at T1, as in sled tests
+    /// Head and neck of a volunteer.
     Neck,
-    /// A pedestrian struck by a braking car
+    /// A pedestrian struck by a braking car.
     Pedestrian,
-    /// A belted driver in a crash recorded by sensors in the car
+    /// A crash recorded by sensors in the car.
     Sensors,
-    /// A sedan with a belted driver that runs off the road into a ditch
+    /// A sedan that runs off the road.
     Drive,
-    /// A study of my-case.toml: its parameters and their ranges
+    /// A study of my-case.toml.
     Study,
 }
 
@@ -45,8 +46,49 @@ struct Section<'a> {
 }
 
 impl Template {
+    /// All templates, the default first.
+    pub const ALL: [Template; 14] = {
+        use Template::*;
+        [
+            Driver,
+            RightHandDrive,
+            RearSeat,
+            Side,
+            FarSide,
+            Rear,
+            Rollover,
+            Edr,
+            Sled,
+            Neck,
+            Pedestrian,
+            Sensors,
+            Drive,
+            Study,
+        ]
+    };
+
+    /// Its name, and what it describes.
+    pub fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Template::Driver => ("driver", "A belted driver, 50 km/h into a stop"),
+            Template::RightHandDrive => ("right-hand-drive", "The same in a right-hand-drive car"),
+            Template::RearSeat => ("rear-seat", "A belted passenger behind the driver, 50 km/h into a stop"),
+            Template::Side => ("side", "A belted driver struck on the near side"),
+            Template::FarSide => ("far-side", "A belted driver struck on the far side"),
+            Template::Rear => ("rear", "A driver struck from behind"),
+            Template::Rollover => ("rollover", "A belted driver in a quarter-turn rollover"),
+            Template::Edr => ("edr", "A belted driver in a crash recorded by an event data recorder"),
+            Template::Sled => ("sled", "A belted occupant on a sled, with a tabulated pulse"),
+            Template::Neck => ("neck", "Head and neck of a living volunteer driven at T1, as in sled tests"),
+            Template::Pedestrian => ("pedestrian", "A pedestrian struck by a braking car"),
+            Template::Sensors => ("sensors", "A belted driver in a crash recorded by sensors in the car"),
+            Template::Drive => ("drive", "A sedan with a belted driver that runs off the road into a ditch"),
+            Template::Study => ("study", "A study of my-case.toml: its parameters and their ranges"),
+        }
+    }
+
     /// The scenario.
-    pub(super) fn text(self) -> String {
+    pub fn text(self) -> String {
         let driver = STARTER;
         match self {
             Template::Driver => driver.to_owned(),
@@ -67,7 +109,7 @@ impl Template {
     }
 
     /// Next commands for a file of this name.
-    pub(super) fn next(self, name: &str) -> String {
+    pub fn next(self, name: &str) -> String {
         match self {
             Template::Drive => format!("occupant drive {name}\n      occupant run {name}"),
             Template::Study => format!("occupant sweep {name} --dry-run\n      occupant sweep {name}"),
@@ -76,9 +118,20 @@ impl Template {
     }
 }
 
+/// The driver's scenario with another title and path; all three as TOML.
+pub fn with_path(title: &str, origin: &str, section: &str) -> String {
+    let head = "# A belted driver in a generic car, on the vehicle path of a test: change body, posture, belts and interior to those of the test.\n\n";
+    let changed = changed(STARTER, &format!("{head}title = {title}\n\n{section}"));
+    let line = |line: &str| match line.starts_with("path = ") {
+        true => format!("path = {origin}\n"),
+        false => line.to_owned(),
+    };
+    changed.split_inclusive('\n').map(line).collect()
+}
+
 /// The sections of `base`, replaced by those of `changes`, then the new sections of `changes`. A changed section keeps
 /// its comments unless the change brings its own.
-pub(super) fn changed(base: &str, changes: &str) -> String {
+fn changed(base: &str, changes: &str) -> String {
     let (base, changes) = (sections(base), sections(changes));
     let as_changed = |old: &Section<'_>| match changes.iter().find(|new| new.name == old.name) {
         Some(new) if new.comments.trim().is_empty() => old.comments.to_owned() + new.text,
