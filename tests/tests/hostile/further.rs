@@ -56,7 +56,7 @@ fn shape() -> Shape {
 }
 
 fn descents(evaluations: u64, population: usize, start: &[f64]) -> Descents {
-    Descents { start: start.to_vec(), seed: 1, evaluations, population, tolerance: 1e-3 }
+    Descents { start: start.to_vec(), next: vec![], seed: 1, evaluations, population, tolerance: 1e-3 }
 }
 
 fn signals(count: [usize; 6], value: f64, dt_s: f64) -> VehicleSignals {

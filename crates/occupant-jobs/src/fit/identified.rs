@@ -85,6 +85,7 @@ fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_, Fitting>) -> Result
     let fit = &fitting.fit;
     let how = Descents {
         start: fitting.start(),
+        next: Vec::new(),
         seed: fit.seed,
         evaluations: fit.budget,
         population: fit.population,

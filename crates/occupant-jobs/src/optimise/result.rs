@@ -314,7 +314,7 @@ fn counts(of: &Optimising, records: &[Record]) -> Counts {
     for record in records {
         match record.stage {
             None => {}
-            Some(Stage::Descent { .. }) => count.search += 1,
+            Some(Stage::Sample | Stage::Descent { .. }) => count.search += 1,
             Some(_) => count.neighbours += 1,
         }
         if let Some(reason) = &record.reason {

@@ -44,6 +44,7 @@ pub fn search(of: &Optimising, evaluator: &mut Evaluator<'_, Optimising>) -> Res
     let before = evaluator.base()?;
     let how = Descents {
         start: of.start(),
+        next: Vec::new(),
         seed: of.optimise.seed,
         evaluations: of.optimise.budget,
         population: of.optimise.population,

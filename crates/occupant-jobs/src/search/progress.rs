@@ -68,6 +68,7 @@ impl Progress {
 pub fn words_of(stage: Option<Stage>) -> (&'static str, String) {
     match stage {
         None => ("base", "base scenario".to_owned()),
+        Some(Stage::Sample) => ("sample", "samples of the whole range".to_owned()),
         Some(Stage::Descent { number, generation }) => {
             ("search", format!("descent {}, generation {}", number + 1, generation + 1))
         }

@@ -13,6 +13,8 @@
 
 use super::descents::{Descents, Global, descend};
 use super::{Point, Stage};
+use crate::random::{Purpose, unit};
+use crate::sobol::{MAX_DIMENSIONS, Sobol};
 use crate::spread::quantile;
 
 /// Values of a candidate.
@@ -118,13 +120,34 @@ impl Prices {
 /// Values of a batch of candidates in order, or the reason to stop the search.
 pub type Try<'a, E> = dyn FnMut(Stage, &[Vec<f64>]) -> Result<Vec<Trial>, E> + 'a;
 
-/// Searches the unit cube for the lowest goal within the limits. Values of the descents are those of the Lagrangian; the
-/// best point of all is the first of the ranking, with its trial.
+/// One of this many evaluations is a sample of the whole cube, before the first descent.
+const SAMPLED: u64 = 5;
+/// Largest number of samples at which descents start.
+const STARTS: usize = 4;
+/// Least distance between those, of the cube's diagonal.
+const APART: f64 = 0.25;
+
+/// Searches the unit cube for the lowest goal within the limits: a fifth of the evaluations samples the whole cube, then descents
+/// start at the best samples that are far from each other. Values of the descents are those of the Lagrangian; the best point of
+/// all is the first of the ranking, with its trial.
 ///
 /// # Errors
 /// An error of `evaluate`.
 pub fn descend_within<E>(how: &Descents, evaluate: &mut Try<'_, E>) -> Result<(Global, Point, Trial), E> {
     let mut best = (Point { at: how.start.clone(), value: f64::INFINITY }, Trial::failed());
+    let count = how.evaluations / SAMPLED;
+    let mut how = how.clone();
+    // fewer than a generation show nothing
+    if count >= how.population as u64 {
+        let points = spread(&how, count);
+        let trials = evaluate(Stage::Sample, &points)?;
+        lower(&mut best, &points, &trials);
+        how.evaluations -= count;
+        let mut starts = starts(&points, &trials).into_iter();
+        how.start = starts.next().unwrap_or(how.start);
+        how.next = starts.collect();
+    }
+    let how = &how;
     let mut prices = Prices::default();
     let mut descent = 0;
     let global = descend(how, &mut |stage: Stage, points: &[Vec<f64>]| {
@@ -141,6 +164,36 @@ pub fn descend_within<E>(how: &Descents, evaluate: &mut Try<'_, E>) -> Result<(G
     Ok((global, point, trial))
 }
 
+/// The start and points of a scrambled sequence of Sobol': `count` in all.
+fn spread(how: &Descents, count: u64) -> Vec<Vec<f64>> {
+    let n = how.start.len();
+    let sobol = Sobol::new(n);
+    let coordinate = |index: u64, d: usize| match d {
+        _ if d < MAX_DIMENSIONS => sobol.scrambled(index, d, how.seed),
+        _ => unit(how.seed, Purpose::Search, index, d as u32),
+    };
+    let sampled = (1..count).map(|index| (0..n).map(|d| coordinate(index - 1, d)).collect());
+    std::iter::once(how.start.clone()).chain(sampled).collect()
+}
+
+/// The first of the ranking of these points that are far from each other.
+fn starts(points: &[Vec<f64>], trials: &[Trial]) -> Vec<Vec<f64>> {
+    let mut order: Vec<usize> = (0..trials.len()).filter(|i| trials[*i].rank() != Rank::Failed).collect();
+    let by_rank = |a: &usize, b: &usize| trials[*a].rank().partial_cmp(&trials[*b].rank());
+    order.sort_by(|a, b| by_rank(a, b).unwrap_or(std::cmp::Ordering::Equal).then(a.cmp(b)));
+    let mut chosen: Vec<Vec<f64>> = Vec::new();
+    for i in order {
+        let apart = |other: &Vec<f64>| {
+            let squares: f64 = points[i].iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum();
+            squares > APART * APART * points[i].len() as f64
+        };
+        if chosen.len() < STARTS && chosen.iter().all(apart) {
+            chosen.push(points[i].clone());
+        }
+    }
+    chosen
+}
+
 /// Puts the first of the ranking of these points in the place of `best`, unless that is as good.
 pub fn lower(best: &mut (Point, Trial), points: &[Vec<f64>], trials: &[Trial]) {
     for (at, trial) in points.iter().zip(trials) {
@@ -155,8 +208,14 @@ mod tests {
     use super::*;
 
     fn best(n: usize, start: f64, seed: u64, of: &dyn Fn(&[f64]) -> Trial) -> (Point, Trial) {
-        let how =
-            Descents { start: vec![start; n], seed, evaluations: 400 * n as u64, population: 16, tolerance: 1e-6 };
+        let how = Descents {
+            start: vec![start; n],
+            next: vec![],
+            seed,
+            evaluations: 400 * n as u64,
+            population: 16,
+            tolerance: 1e-6,
+        };
         let mut evaluate =
             |_: Stage, points: &[Vec<f64>]| -> Result<Vec<Trial>, ()> { Ok(points.iter().map(|x| of(x)).collect()) };
         let (_, point, trial) = descend_within(&how, &mut evaluate).unwrap();
@@ -191,6 +250,19 @@ mod tests {
             let squares: f64 = (1..=n).map(|i| (i * i) as f64).sum();
             let exact = 0.25 * (n * (n + 1)) as f64 - 0.2 * squares.sqrt();
             assert!((0.0..1e-4).contains(&(found.goal - exact)), "{n} {seed}: {} {exact}", found.goal);
+        }
+    }
+
+    /// A wide basin at the start, one of a third of its width with a lower floor in the opposite corner: descents from the start
+    /// alone end in the wide one.
+    #[test]
+    fn a_narrower_and_deeper_basin_is_found() {
+        for (n, seed) in [2, 5].into_iter().flat_map(|n| (0..12).map(move |seed| (n, seed))) {
+            let (point, found) = best(n, 0.8, seed, &|x| {
+                let apart = |middle: f64| x.iter().map(|x| (x - middle) * (x - middle)).sum::<f64>() / n as f64;
+                trial((10.0 * apart(0.8)).min(30.0 * apart(0.25) - 1.0), vec![])
+            });
+            assert!(found.goal < -0.999 && (point.at[0] - 0.25).abs() < 0.01, "{n} {seed}: {}", found.goal);
         }
     }
 

@@ -11,8 +11,10 @@ use crate::random::{Purpose, unit};
 /// Settings of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descents {
-    /// Start of the first descent, coordinates from 0 to 1. The others start at random points.
+    /// Start of the first descent, coordinates from 0 to 1.
     pub start: Vec<f64>,
+    /// Starts of the next descents. Those after them start at random points.
+    pub next: Vec<Vec<f64>>,
     /// Seed of the random numbers.
     pub seed: u64,
     /// Largest number of evaluations.
@@ -77,6 +79,7 @@ pub fn descend<E>(how: &Descents, evaluate: &mut Evaluate<'_, E>) -> Result<Glob
 fn start(how: &Descents, number: usize) -> Vec<f64> {
     match number {
         0 => how.start.clone(),
+        _ if number <= how.next.len() => how.next[number - 1].clone(),
         _ => {
             let index = u64::MAX - number as u64;
             let anywhere = |d| unit(how.seed, Purpose::Search, index, d as u32);

@@ -35,6 +35,8 @@ mod tests;
 /// Purpose of a batch of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
+    /// Points spread over the whole cube before the first descent.
+    Sample,
     /// A generation of a global descent, both counted from 0.
     Descent {
         /// Number of the descent.

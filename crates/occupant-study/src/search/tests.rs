@@ -103,7 +103,14 @@ fn a_great_population_finds_its_way_through_a_rugged_landscape() {
 
 #[test]
 fn growing_populations_reach_what_the_first_descent_misses() {
-    let how = |seed| Descents { start: vec![0.1; 3], seed, evaluations: 20_000, population: 7, tolerance: 1e-9 };
+    let how = |seed| Descents {
+        start: vec![0.1; 3],
+        next: vec![],
+        seed,
+        evaluations: 20_000,
+        population: 7,
+        tolerance: 1e-9,
+    };
     let (mut missed, mut arrived) = (0, 0);
     for seed in 0..10 {
         let f = |p: &[f64]| rastrigin(&p.iter().map(|u| 10.0 * u - 6.0).collect::<Vec<_>>());
@@ -230,7 +237,8 @@ fn a_least_value_at_a_wall_is_found_there_and_has_one_end() {
 fn a_search_is_the_same_for_the_same_seed_and_another_for_another() {
     let run = |seed| {
         let mut seen: Vec<Vec<f64>> = Vec::new();
-        let how = Descents { start: vec![0.5; 2], seed, evaluations: 200, population: 8, tolerance: 1e-12 };
+        let how =
+            Descents { start: vec![0.5; 2], next: vec![], seed, evaluations: 200, population: 8, tolerance: 1e-12 };
         let mut of = |_, points: &[Vec<f64>]| {
             seen.extend(points.to_vec());
             Ok::<_, Infallible>(points.iter().map(|p| sphere(p)).collect())
