@@ -47,8 +47,8 @@ pub(super) enum Lack {
     Absent,
     /// The dummy of the limits has no such criterion.
     NotOfDummy,
-    /// A body part that is rigid, and so has no such force.
-    Rigid(&'static str),
+    /// A body without such a load cell, and what there is instead.
+    Without(&'static str),
     /// The head never touches the restraint.
     NoContact,
 }
@@ -153,7 +153,7 @@ impl Definition {
                 measure.remark = Some(self.absent?.to_owned());
             }
             Err(Lack::NotOfDummy) => measure.remark = Some(format!("the {} has no such criterion", dummy.name())),
-            Err(Lack::Rigid(why)) => {
+            Err(Lack::Without(why)) => {
                 (measure.filter_class, measure.figure, measure.brief) = (0, None, false);
                 measure.remark = Some(why.to_owned());
             }

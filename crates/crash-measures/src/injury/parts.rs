@@ -79,7 +79,8 @@ pub(super) const SIDE: &[Definition] = &[
         .brief()
         .limited(Quantity::PubicForce)
         .risks(&[("pelvis AIS3+", Ais3)], pelvis_force_risk),
-    measure("pelvis_force", "acetabulum and ilium force", Newton, Cfc600, |r| r.force(&r.several(2, Special::Pelvis)?))
+    measure("pelvis_force", "acetabulum and ilium force", Newton, Cfc600, Readings::pelvis)
+        .brief()
         .limited(Quantity::PelvisForce)
         .risks(&[("pelvis AIS2+", Ais2)], pelvis_force_risk),
 ];
@@ -149,11 +150,19 @@ impl Readings {
         Finding { is_of_dummy: finding.is_of_dummy && !matches!(self.sides, Some(Ribs::Person { .. })), ..finding }
     }
 
-    /// Force of the pubic symphysis; a simulated pelvis has none.
+    /// Force of acetabulum and ilium; of a person that between the flesh of the struck side and the pelvis.
+    fn pelvis(&self) -> Result<Finding, Lack> {
+        let found = self.of_sides(self.force(&self.several(2, Special::Pelvis)?)?);
+        let of_person = matches!(self.sides, Some(Ribs::Person { .. }));
+        let remark = of_person.then(|| "between the flesh of the struck side and the pelvis".to_owned());
+        Ok(Finding { remark: remark.or(found.remark.clone()), ..found })
+    }
+
+    /// Force of the pubic symphysis, which only a dummy's load cell feels.
     fn pubic(&self) -> Result<Finding, Lack> {
-        let rigid = "the pelvis is rigid: it has no force of the pubic symphysis, and none of acetabulum and ilium";
+        let instead = "no load cell at the pubic symphysis: of a person see the force of acetabulum and ilium";
         match self.special(Special::Pubic) {
-            Err(Lack::Absent) if self.sides.is_some() => Err(Lack::Rigid(rigid)),
+            Err(Lack::Absent) if self.sides.is_some() => Err(Lack::Without(instead)),
             force => self.force(&[force?]),
         }
     }

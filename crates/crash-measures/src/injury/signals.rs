@@ -88,7 +88,7 @@ pub struct Signals {
     pub special: BTreeMap<Special, Vec<f64>>,
     /// The person whose chest it is; none for the dummy of the limits.
     pub person: Option<Person>,
-    /// Whose ribs yield to the side, in a simulated body with a rigid pelvis; none for a test.
+    /// Whose ribs yield to the side, in a simulated body; none for a test.
     pub sides: Option<Ribs>,
     /// Largest values between the samples, if they are known.
     pub peaks: Option<Extremes>,

@@ -56,8 +56,10 @@ impl Ride {
 impl Sides {
     /// The sides in a model of several bodies, for the body with this name whose plates begin at `first`.
     pub(crate) fn of_member(&self, name: &str, first: usize) -> Self {
-        let (ribs, abdomen) = (self.ribs.map(|plate| first + plate), self.abdomen.map(|plate| first + plate));
-        Sides { of: name.to_owned(), ribs, abdomen, ..self.clone() }
+        let moved = |plate: usize| first + plate;
+        let (ribs, abdomen) = (self.ribs.map(moved), self.abdomen.map(moved));
+        let pelvis = self.pelvis.map(|plates| plates.map(moved));
+        Sides { of: name.to_owned(), ribs, abdomen, pelvis, ..self.clone() }
     }
 }
 
@@ -81,6 +83,10 @@ pub struct Sides {
     pub ribs: [usize; 2],
     /// Index of the abdomen's plate, if there is an abdomen.
     pub abdomen: Option<usize>,
+    /// Indices of the plates of the pelvis, left and right, if it yields.
+    pub pelvis: Option<[usize; 2]>,
+    /// Share of the force on a side of the pelvis that the pubic symphysis of a dummy feels; none for a person.
+    pub pubic_share: Option<f64>,
     /// Half of the breadth of the chest, m: the reference of the viscous criterion.
     pub half_breadth_m: f64,
 }

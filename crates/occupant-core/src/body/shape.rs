@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::{Body, ContactSphere, Segment, Tree};
 
-/// A sphere near one of the report's, to whose part it belongs.
+/// A sphere near another, to whose part it belongs.
 struct Beside {
     name: &'static str,
     of: &'static str,
@@ -22,13 +22,20 @@ const SIDE_OF_CHEST: [f64; 2] = [0.8, 0.54];
 /// Half of the breadth of a chest with these, in radii of its sphere.
 pub const CHEST_OUT: f64 = SIDE_OF_CHEST[0] + SIDE_OF_CHEST[1];
 
-const BESIDE: [Beside; 8] = [
+/// The same of the spheres at the sides of the pelvis and of the abdomen.
+const SIDE_OF_PELVIS: [f64; 2] = [0.8, 0.67];
+/// Half of the breadth of a pelvis with these, in radii of its sphere.
+pub const PELVIS_OUT: f64 = SIDE_OF_PELVIS[0] + SIDE_OF_PELVIS[1];
+
+const BESIDE: [Beside; 10] = [
     beside("face", "head", 0.6, [0.45, 0.0, -0.65]),
     beside("chin", "head", 0.35, [0.6, 0.0, -1.0]),
     beside("right_chest", "chest", SIDE_OF_CHEST[0], [0.0, -SIDE_OF_CHEST[1], 0.0]),
     beside("left_chest", "chest", SIDE_OF_CHEST[0], [0.0, SIDE_OF_CHEST[1], 0.0]),
-    beside("right_pelvis", "pelvis", 0.8, [0.0, -0.67, 0.0]),
-    beside("left_pelvis", "pelvis", 0.8, [0.0, 0.67, 0.0]),
+    beside("right_pelvis", "pelvis", SIDE_OF_PELVIS[0], [0.0, -SIDE_OF_PELVIS[1], 0.0]),
+    beside("left_pelvis", "pelvis", SIDE_OF_PELVIS[0], [0.0, SIDE_OF_PELVIS[1], 0.0]),
+    beside("right_abdomen", "abdomen", SIDE_OF_PELVIS[0], [0.0, -SIDE_OF_PELVIS[1], 0.0]),
+    beside("left_abdomen", "abdomen", SIDE_OF_PELVIS[0], [0.0, SIDE_OF_PELVIS[1], 0.0]),
     beside("right_forefoot", "right_foot", 0.7, [3.2, 0.0, -0.3]),
     beside("left_forefoot", "left_foot", 0.7, [3.2, 0.0, -0.3]),
 ];
@@ -87,18 +94,26 @@ pub fn names(tree: &Tree) -> Vec<String> {
 /// Gapless spheres of a body with the report's spheres `report`; those of a row are at most `apart` mean radii apart.
 pub fn full(body: &Body, report: Vec<ContactSphere>, apart: f64) -> Vec<ContactSphere> {
     let of = |name: &str| report.iter().find(|sphere| sphere.name == name);
-    let beside = BESIDE.iter().filter_map(|b| {
-        let of = of(b.of)?;
-        let centre = of.centre_from_lower_end_m + Vector3::from(b.place) * of.radius_m;
-        let sphere = ContactSphere { name: b.name.to_owned(), centre_from_lower_end_m: centre, ..of.clone() };
-        Some(ContactSphere { radius_m: b.radius * of.radius_m, ..sphere })
-    });
+    let beside = BESIDE.iter().filter_map(|b| Some(b.sphere(of(b.of)?)));
     let trunk = [of("head").map(|head| neck(body, head)), of("pelvis").and_then(|pelvis| abdomen(body, pelvis))];
     let rows = SIDES.iter().flat_map(|side| ROWS.iter().flat_map(move |r| in_row(body, side, r, apart, &of)));
     let is_replaced =
         |name: &str| ROWS.iter().any(|row| SIDES.iter().any(|side| name == format!("{side}_{}", row.part)));
     let kept = report.iter().filter(|sphere| !is_replaced(&sphere.name)).cloned();
     kept.chain(beside).chain(trunk.into_iter().flatten()).chain(rows).collect()
+}
+
+/// Spheres to the left and right of an abdomen, which make it as wide as a person; they move with the same plates as it.
+pub fn sides_of_abdomen(abdomen: &ContactSphere) -> impl Iterator<Item = ContactSphere> {
+    BESIDE.iter().filter(|b| b.of == "abdomen").map(|b| b.sphere(abdomen))
+}
+
+impl Beside {
+    fn sphere(&self, of: &ContactSphere) -> ContactSphere {
+        let centre_from_lower_end_m = of.centre_from_lower_end_m + Vector3::from(self.place) * of.radius_m;
+        let radius_m = self.radius * of.radius_m;
+        ContactSphere { name: self.name.to_owned(), centre_from_lower_end_m, radius_m, ..of.clone() }
+    }
 }
 
 /// Sphere of the neck, on the neck segment if there is one, else on the head.

@@ -26,10 +26,11 @@ pub(crate) const CHEST: usize = 26;
 /// the pelvis, in axes of the body's home frame.
 pub(crate) const REAR: usize = CHEST + CHEST_POINTS;
 /// Index of the values for side impact: deflection of the ribs of the side that is pressed in more, m; force of the
-/// abdomen from the side, N; reading of an accelerometer at T12.
+/// abdomen from the side, N; reading of an accelerometer at T12; force of the side of the pelvis that is loaded more, N, and
+/// the pubic symphysis' share of it.
 pub(crate) const SIDE: usize = REAR + 3;
 /// Count of those values.
-pub(crate) const SIDE_SIGNALS: usize = 5;
+pub(crate) const SIDE_SIGNALS: usize = 7;
 /// Number of chest points.
 pub(crate) const CHEST_POINTS: usize = 1 + POINTS.len();
 /// Points of a chest besides the sternum, by their names in bodies.
@@ -69,6 +70,9 @@ struct SideSites<S> {
     ribs: [usize; 2],
     /// Plate of the abdomen, if there is one.
     abdomen: Option<usize>,
+    /// Plates of the pelvis, left and right, if it yields, and the share of the pubic symphysis, 0 in a person.
+    pelvis: Option<[usize; 2]>,
+    pubic_share: S,
     /// Segment of the chest, and the place of T12 on it: its lower end, from its joint.
     chest: usize,
     t12: V3<S>,
@@ -164,6 +168,8 @@ impl Instruments<f64> {
             sides: sides.map(|(own, chest)| SideSites {
                 ribs: own.ribs,
                 abdomen: own.abdomen,
+                pelvis: own.pelvis,
+                pubic_share: own.pubic_share.unwrap_or(0.0),
                 chest: chest.index(),
                 t12: -V3::of(&body.joint_m(chest)),
             }),
@@ -203,8 +209,9 @@ impl<S: Copy> Instruments<S> {
             home: self.home,
             chest: std::array::from_fn(|i| self.chest[i].zip(other.chest[i]).map(|(a, b)| a.zip(&b, f))),
             sides: self.sides.zip(other.sides).map(|(a, b)| {
-                let SideSites { ribs, abdomen, chest, t12 } = a;
-                SideSites { ribs, abdomen, chest, t12: t12.zip(&b.t12, f) }
+                let SideSites { ribs, abdomen, pelvis, pubic_share, chest, t12 } = a;
+                let (pubic_share, t12) = (f(pubic_share, b.pubic_share), t12.zip(&b.t12, f));
+                SideSites { ribs, abdomen, pelvis, pubic_share, chest, t12 }
             }),
         }
     }
@@ -212,8 +219,8 @@ impl<S: Copy> Instruments<S> {
 
 impl<S: Copy> SideSites<S> {
     /// Its plates and its segment.
-    fn places(&self) -> ([usize; 2], Option<usize>, usize) {
-        (self.ribs, self.abdomen, self.chest)
+    fn places(&self) -> ([usize; 2], Option<usize>, Option<[usize; 2]>, usize) {
+        (self.ribs, self.abdomen, self.pelvis, self.chest)
     }
 }
 
@@ -314,6 +321,11 @@ impl<S: Scalar> SideSites<S> {
         let gravity = v3(S::zero(), S::zero(), system.skeleton.gravity);
         let felt = from.accelerations.at(k, self.chest, k.axes[self.chest].out(self.t12)) + gravity;
         put(reading, SIDE + 2, told(k, self.chest, felt));
+        if let Some(pelvis) = self.pelvis {
+            let [left, right] = pelvis.map(|plate| from.resist[plate % MOST_SLIDES].abs());
+            reading[SIDE + 5] = left.max(right);
+            reading[SIDE + 6] = self.pubic_share * reading[SIDE + 5];
+        }
     }
 }
 

@@ -9,7 +9,7 @@ pub const MOST_SEGMENTS: usize = 48;
 /// Largest number of hinge axes of all bodies together.
 pub(crate) const MOST_HINGES: usize = 48;
 /// Largest number of sliding point masses of all bodies together.
-pub(crate) const MOST_SLIDES: usize = 16;
+pub(crate) const MOST_SLIDES: usize = 20;
 /// Largest number of bodies.
 pub(crate) const MOST_BODIES: usize = 8;
 /// Largest number of segments, and of hinge axes, of one tree.

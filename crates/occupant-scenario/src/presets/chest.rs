@@ -21,9 +21,11 @@ const BY_DEPTH: f64 = 0.27;
 /// Plates of the ribs to the sides, with the sign of their Y, and of the abdomen.
 pub(crate) const SIDES: [(&str, f64); 2] = [("left_side", 1.0), ("right_side", -1.0)];
 pub(crate) const ABDOMEN_SIDE: &str = "abdomen_side";
+/// Plates of the sides of the pelvis, named as the spheres that press them.
+pub(crate) const PELVIS: [(&str, f64); 2] = [("left_pelvis", 1.0), ("right_pelvis", -1.0)];
 
-/// Numbers of an average man's sternum, and of other ribs.
-struct Breastbone {
+/// Numbers of a part that yields: of an average man's sternum, and of others.
+struct Part {
     mass_kg: f64,
     /// m and N.
     spring: &'static [[f64; 2]],
@@ -34,21 +36,21 @@ struct Breastbone {
     share: f64,
 }
 
-const PERSON: Breastbone = Breastbone {
+const PERSON: Part = Part {
     mass_kg: 0.20,
     spring: &[[0.0, 0.0], [0.022, 220.0], [0.1, 4120.0]],
     returned: 0.3,
     damper: [40.0, 116.0, 650.0],
     share: 0.35,
 };
-const DUMMY_50: Breastbone = Breastbone {
+const DUMMY_50: Part = Part {
     mass_kg: 0.9,
     spring: &[[0.0, 0.0], [0.1, 6000.0]],
     returned: 1.0,
     damper: [640.0, 0.0, 640.0],
     share: 0.20,
 };
-const DUMMY_05F: Breastbone = Breastbone {
+const DUMMY_05F: Part = Part {
     mass_kg: 0.2,
     spring: &[[0.0, 0.0], [0.04, 2000.0], [0.1, 12200.0]],
     returned: 0.7,
@@ -57,13 +59,27 @@ const DUMMY_05F: Breastbone = Breastbone {
 };
 
 /// Ribs of a side of `es2`: mass and returned fraction are guesses.
-const ES2_RIBS: Breastbone = Breastbone {
-    mass_kg: 1.2,
-    spring: &[[0.0, 0.0], [0.1, 9600.0]],
-    returned: 0.9,
-    damper: [480.0, 0.0, 480.0],
+const ES2_RIBS: Part =
+    Part { mass_kg: 1.2, spring: &[[0.0, 0.0], [0.1, 9600.0]], returned: 0.9, damper: [480.0, 0.0, 480.0], share: 0.0 };
+/// Flesh, trochanter and pelvic ring of a side of an average man's pelvis, fitted to hubs at 5.2 m/s (Viano 1989); returned
+/// fraction and damper outwards are guesses.
+const PELVIS_OF_PERSON: Part = Part {
+    mass_kg: 0.3,
+    spring: &[[0.0, 0.0], [0.006, 312.0], [0.1, 8866.0]],
+    returned: 0.3,
+    damper: [20.0, 475.0, 184.0],
     share: 0.0,
 };
+/// The same of `es2`, fitted to 49 CFR 572.188: peak and its time. Mass and returned fraction are guesses.
+const ES2_PELVIS: Part = Part {
+    mass_kg: 0.5,
+    spring: &[[0.0, 0.0], [0.0125, 500.0], [0.1, 34625.0]],
+    returned: 0.7,
+    damper: [600.0, 0.0, 600.0],
+    share: 0.0,
+};
+/// Share of the force on the pelvis of `es2` that its pubic symphysis feels: the means of 49 CFR 572.188, 1.41 and 5.05 kN.
+const PUBIC_SHARE: f64 = 0.28;
 /// Abdomen of `es2`: the share of a contact's force that its load cells feel, spring, N/m, and damper, N·s/m.
 const ES2_ABDOMEN: [f64; 3] = [0.55, 44e3, 60.0];
 /// The same of a person, as from the front.
@@ -132,13 +148,14 @@ pub(super) fn sides(
     reference: &Body,
 ) -> Vec<String> {
     let (Some(torso), Some(chest)) = (body.tree.landmarks().chest, body.sphere("chest")) else { return Vec::new() };
-    let (ribs, [_, stiffness, damping], scale) = match choice {
+    let larger = |segment: Segment| body.segment(segment).mass_kg / reference.segment(segment).mass_kg;
+    let (ribs, pelvis, [_, stiffness, damping], scale) = match choice {
         SidesChoice::Rigid => return Vec::new(),
         SidesChoice::Person => {
-            let mass = body.segment(torso).mass_kg / reference.segment(torso).mass_kg;
-            (PERSON, ABDOMEN, Scale::of(mass, person.chest_depth_m() / of_reference.chest_depth_m()))
+            let scale = Scale::of(larger(torso), person.chest_depth_m() / of_reference.chest_depth_m());
+            (PERSON, PELVIS_OF_PERSON, ABDOMEN, scale)
         }
-        SidesChoice::Es2 => (ES2_RIBS, ES2_ABDOMEN, Scale::NONE),
+        SidesChoice::Es2 => (ES2_RIBS, ES2_PELVIS, ES2_ABDOMEN, Scale::NONE),
     };
     let (half_m, chest) = (half_breadth_m(choice, body), &body.spheres[chest]);
     let (name, z_m) = (body.tree[torso].name, chest.centre_from_lower_end_m.z);
@@ -148,6 +165,17 @@ pub(super) fn sides(
         let at = [0.0, sign * half_m, z_m];
         lines.extend(header(plate, name, at, &inward, scale.mass * ribs.mass_kg, Some(2.0 * half_m)));
         lines.extend(ribs.words(&scale));
+    }
+    let of_pelvis = body.tree.landmarks().pelvis.zip(body.sphere("pelvis"));
+    if let Some((segment, sphere)) = of_pelvis {
+        let scale = if choice == SidesChoice::Es2 { Scale::NONE } else { Scale::of(larger(segment), 1.0) };
+        let (name, sphere) = (body.tree[segment].name, &body.spheres[sphere]);
+        for (plate, sign) in PELVIS {
+            let at = [0.0, sign * shape::PELVIS_OUT * sphere.radius_m, sphere.centre_from_lower_end_m.z];
+            let inward = format!("[0, {}, 0]", -sign);
+            lines.extend(header(plate, name, at, &inward, scale.mass * pelvis.mass_kg, None));
+            lines.extend(pelvis.words(&scale));
+        }
     }
     let Some(above) = middle(body) else { return lines };
     let (name, length_m) = (body.tree[above].name, body.segment(above).length_m);
@@ -167,6 +195,11 @@ pub(crate) fn half_breadth_m(choice: SidesChoice, body: &Body) -> f64 {
 /// Share of the force of a contact from the side on the abdomen's plate.
 pub(crate) fn share_of_abdomen(choice: SidesChoice) -> f64 {
     if choice == SidesChoice::Es2 { ES2_ABDOMEN[0] } else { ABDOMEN[0] }
+}
+
+/// Share of the force on the pelvis that a dummy's pubic symphysis feels.
+pub(crate) fn pubic_share(choice: SidesChoice) -> Option<f64> {
+    (choice == SidesChoice::Es2).then_some(PUBIC_SHARE)
 }
 
 /// Part of the trunk between chest and pelvis.
@@ -238,7 +271,7 @@ fn ride(share: f64) -> String {
     )
 }
 
-impl Breastbone {
+impl Part {
     fn words(&self, scale: &Scale) -> Vec<String> {
         let axis = |i: usize, by: f64| list(&self.spring.iter().map(|point| point[i] * by).collect::<Vec<_>>());
         let [linear, quadratic, outward] = self.damper.map(|c| number(c * scale.force));

@@ -82,12 +82,12 @@ pub(crate) struct BodySection {
     /// "person": an abdomen, as a sphere and a plate above the pelvis, which belts, rims and doors can load; fitted to
     /// two values of belt pretensioner tests. "rigid", no abdomen, if absent.
     pub(crate) abdomen: Option<AbdomenChoice>,
-    /// Ribs and abdomen under loads from the side: "person", which yield as from the front; "es2", those of a side impact
+    /// Ribs, abdomen and pelvis under loads from the side: "person", whose ribs and abdomen yield as from the front; "es2", a side impact
     /// dummy; or "rigid". "rigid" if absent. With them the measures are those of a side impact. They need
     /// `sphere_set` = "even" or "full".
     pub(crate) sides: Option<SidesChoice>,
     /// Deformable parts by name, or changes to those of `chest`: `sternum`, `left_ribs`, `right_ribs`; of `sides`:
-    /// `left_side`, `right_side`, `abdomen_side`.
+    /// `left_side`, `right_side`, `abdomen_side`, `left_pelvis`, `right_pelvis`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) plates: IndexMap<String, BodyPlateSection>,
     /// Springs and dampers between plates by name.
@@ -399,13 +399,25 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
     if set != SphereSet::Report {
         spheres = shape::full(body, spheres, si_or(&body_section.sphere_spacing, usual_apart));
     }
-    for (name, section) in sections.iter().filter(|(name, _)| standard.iter().all(|row| row.name != *name)) {
+    let yields_aside =
+        set != SphereSet::Report && body_section.sides.is_some_and(|choice| choice != SidesChoice::Rigid);
+    let is_later = |name: &str| yields_aside && ["left_abdomen", "right_abdomen"].contains(&name);
+    let own = sections.iter().filter(|(name, _)| standard.iter().all(|row| row.name != *name) && !is_later(name));
+    for (name, section) in own {
         let known = spheres.iter().position(|sphere| sphere.name == *name);
         match (known, section.remove) {
             (Some(i), Some(true)) => drop(spheres.remove(i)),
             (Some(i), _) => spheres[i] = changed(b, body, spheres[i].clone(), section),
             (None, Some(true)) => {}
             (None, _) => spheres.extend(own_sphere(b, body, name, section)),
+        }
+    }
+    let abdomen = spheres.iter().find(|sphere| sphere.name == "abdomen" && yields_aside).cloned();
+    for side in abdomen.iter().flat_map(shape::sides_of_abdomen) {
+        match sections.get(&side.name) {
+            Some(section) if section.remove == Some(true) => {}
+            Some(section) => spheres.push(changed(b, body, side, section)),
+            None => spheres.push(side),
         }
     }
     if set == SphereSet::Even {

@@ -373,16 +373,20 @@ pub(super) fn sides(b: &mut Builder, section: &BodySection, body: &mut Body) -> 
     };
     let abdomen = place(chest::ABDOMEN_SIDE);
     let half_breadth_m = chest::half_breadth_m(choice, body);
-    // the middle of the chest moves half as far as a side that is pressed in
-    let of_chest = [
-        ("left_chest", vec![(left, 1.0)]),
-        ("right_chest", vec![(right, 1.0)]),
-        ("chest", vec![(left, 0.5), (right, 0.5)]),
-    ];
-    let of_abdomen = abdomen.map(|plate| ("abdomen", vec![(plate, chest::share_of_abdomen(choice))]));
-    for (name, shares) in of_chest.into_iter().chain(of_abdomen) {
+    let pelvis = chest::PELVIS.map(|(name, _)| place(name));
+    let pelvis = pelvis[0].zip(pelvis[1]).map(|(left, right)| [left, right]);
+    let of_abdomen = abdomen.map(|plate| {
+        ["abdomen", "left_abdomen", "right_abdomen"].map(|name| (name, vec![(plate, chest::share_of_abdomen(choice))]))
+    });
+    let of_chest = pressed_in(["chest", "left_chest", "right_chest"], [left, right]);
+    let of_pelvis = pelvis.map(|plates| pressed_in(["pelvis", "left_pelvis", "right_pelvis"], plates));
+    for (name, shares) in of_chest.into_iter().chain(of_abdomen.into_iter().chain(of_pelvis).flatten()) {
         let Some(sphere) = body.spheres.iter_mut().find(|sphere| sphere.name == name) else {
-            let found = format!("no sphere `{name}`, which carries what strikes the ribs or the abdomen");
+            let is_removed = section.spheres.get(name).is_some_and(|own| own.remove == Some(true));
+            if is_removed && name.ends_with("_abdomen") {
+                continue;
+            }
+            let found = format!("no sphere `{name}`, which carries what strikes the ribs, the abdomen or the pelvis");
             b.error("body.sides", found, "body.sphere_set = \"even\", or \"full\"");
             return None;
         };
@@ -391,7 +395,14 @@ pub(super) fn sides(b: &mut Builder, section: &BodySection, body: &mut Body) -> 
         }
     }
     let preset = (if choice == SidesChoice::Es2 { "es2" } else { "person" }).to_owned();
-    Some(Sides { of: String::new(), preset, ribs: [left, right], abdomen, half_breadth_m })
+    let (ribs, pubic_share) = ([left, right], chest::pubic_share(choice));
+    Some(Sides { of: String::new(), preset, ribs, abdomen, pelvis, pubic_share, half_breadth_m })
+}
+
+/// Spheres, the middle, left and right one, with the shares of a plate on each side: the middle moves half as far as a side that is
+/// pressed in.
+fn pressed_in([middle, to_left, to_right]: [&str; 3], [left, right]: [usize; 2]) -> [(&str, Shares); 3] {
+    [(middle, vec![(left, 0.5), (right, 0.5)]), (to_left, vec![(left, 1.0)]), (to_right, vec![(right, 1.0)])]
 }
 
 /// Shares of sternum and lower ribs in the deflection of the upper ribs of a side: fitted to means of eight sled tests

@@ -36,7 +36,7 @@ fn sides_of_a_person_yield_as_the_front() {
     let (model, _) = changed(DRIVER, &set).unwrap();
     let body = model.body();
     let names: Vec<&str> = body.plates.iter().map(|plate| plate.name.as_str()).collect();
-    assert_eq!(names[4..], ["left_side", "right_side", "abdomen_side"]);
+    assert_eq!(names[4..], ["left_side", "right_side", "left_pelvis", "right_pelvis", "abdomen_side"]);
     let (front, left) = (&model.setup().bands[0], &model.setup().bands[2]);
     assert_eq!((&left.name[..], &left.spring, left.damper), ("left_side", &front.spring, front.damper));
     // inwards is to the right on the left side; the plates stand where the spheres at the sides end
@@ -48,13 +48,22 @@ fn sides_of_a_person_yield_as_the_front() {
         assert!((plate.place_from_lower_end_m.y - sign * end_m).abs() < 1e-12 && plate.inward.y == -sign);
     }
     let sides = &body.sides[0];
-    assert_eq!((&sides.preset[..], sides.ribs, sides.abdomen), ("person", [4, 5], Some(6)));
+    assert_eq!((&sides.preset[..], sides.ribs, sides.abdomen), ("person", [4, 5], Some(8)));
+    assert_eq!((sides.pelvis, sides.pubic_share), (Some([6, 7]), None));
     assert!((sides.half_breadth_m - ends[0]).abs() < 1e-12 && (0.14..0.17).contains(&ends[0]));
     let ride = |name: &str| body.spheres[body.sphere(name).unwrap()].ride.clone();
     assert_eq!(ride("left_chest").contact, [(0, 1.0), (4, 1.0)]);
     assert_eq!(ride("chest").contact, [(0, 1.0), (4, 0.5), (5, 0.5)]);
-    assert_eq!(ride("abdomen").contact, [(3, 1.0), (6, 1.0)]);
+    for name in ["abdomen", "left_abdomen", "right_abdomen"] {
+        assert_eq!(ride(name).contact, [(3, 1.0), (8, 1.0)], "{name}");
+    }
+    assert_eq!((ride("left_pelvis").contact, ride("pelvis").bag), (vec![(6, 1.0)], vec![(6, 0.5), (7, 0.5)]));
     assert_eq!((ride("left_chest").belt, ride("left_chest").bag), (vec![(0, 0.35)], vec![(0, 0.35), (4, 1.0)]));
+    let [own, abdomen] = ["left_abdomen", "abdomen"].map(|name| &body.spheres[body.sphere(name).unwrap()]);
+    let half_m = own.centre_from_lower_end_m.y + own.radius_m;
+    assert!(own.part == "abdomen" && (half_m / abdomen.radius_m - 1.47).abs() < 1e-12 && half_m > 0.15);
+    let (less, _) = changed(DRIVER, &[&set[..], &["body.spheres.left_abdomen.remove=true"]].concat()).unwrap();
+    assert!(less.body().sphere("left_abdomen").is_none() && less.body().sphere("right_abdomen").is_some());
     // without them all is as it was
     let (plain, _) = changed(DRIVER, &set[..3]).unwrap();
     assert!(plain.body().sides.is_empty() && plain.body().plates.len() == 4);

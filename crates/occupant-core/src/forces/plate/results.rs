@@ -29,6 +29,11 @@ impl<S: Copy> PlateAction<S> {
     pub fn deflection_m(&self) -> S {
         self.deflection
     }
+
+    /// Force of springs and dampers that resists it, N.
+    pub fn force_n(&self) -> S {
+        self.force
+    }
 }
 
 type Of = Quantity<OneOf<Plates>>;

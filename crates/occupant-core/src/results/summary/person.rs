@@ -142,8 +142,15 @@ const CHEST: [Special; 5] = [
     Special::ChestPoint(ChestPoint::ALL[2]),
     Special::ChestPoint(ChestPoint::ALL[3]),
 ];
-const SIDE: [Special; SIDE_SIGNALS] =
-    [Special::Rib(0), Special::Abdomen(0), Special::LowerSpine(0), Special::LowerSpine(1), Special::LowerSpine(2)];
+const SIDE: [Special; SIDE_SIGNALS] = [
+    Special::Rib(0),
+    Special::Abdomen(0),
+    Special::LowerSpine(0),
+    Special::LowerSpine(1),
+    Special::LowerSpine(2),
+    Special::Pelvis(0),
+    Special::Pubic,
+];
 const REAR: [Special; REAR_SIGNALS] = [Special::T1, Special::HeadRestraint, Special::HeadSpeed, Special::PelvisPlace];
 
 /// Signals with room for a whole run.
@@ -159,7 +166,13 @@ fn begun(model: &Model, fine: &Fine, name: &str, is_whole: bool) -> Signals {
         signals.person = (!is_dummy).then_some(injury::Person { chest_depth_m: chest.depth_m, age_years: None });
     }
     if let Some(sides) = model.body().sides.iter().find(|sides| sides.of == name) {
-        let own = SIDE.into_iter().filter(|which| sides.abdomen.is_some() || *which != Special::Abdomen(0));
+        let has = |which: &Special| match which {
+            Special::Abdomen(_) => sides.abdomen.is_some(),
+            Special::Pelvis(_) => sides.pelvis.is_some() && sides.pubic_share.is_none(),
+            Special::Pubic => sides.pelvis.is_some() && sides.pubic_share.is_some(),
+            _ => true,
+        };
+        let own = SIDE.into_iter().filter(has);
         signals.special.extend(own.map(|which| (which, Vec::with_capacity(room))));
         let half_breadth_m = sides.half_breadth_m;
         let is_dummy = sides.preset != "person";
