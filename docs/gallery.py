@@ -34,6 +34,7 @@ FIGURES = {
     "rib_deflection": ("deepest rib", "mm", 1000),
     "rib_viscous_criterion": ("VC of a rib", "m/s", 1),
     "abdomen_force": ("abdomen", "kN", 1e-3),
+    "pelvis_force": ("pelvis", "kN", 1e-3),
     "pelvis_peak": ("pelvis, peak", "g", 1 / G),
     "nic": ("NIC", "m²/s²", 1),
     "nkm": ("Nkm", "", 1),
