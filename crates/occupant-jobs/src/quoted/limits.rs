@@ -1,7 +1,7 @@
 //! Limits of figures: those of rules for the body, and those that the user gives.
 
 use occupant_core::model::Model;
-use occupant_core::results::channel::star;
+use occupant_core::results::channel::matches;
 use occupant_core::results::summary::FigureLimit;
 use occupant_scenario::kind::{KINDS, UnitSystem};
 use occupant_units::unit::Unit;
@@ -39,7 +39,8 @@ pub fn parse_limit(text: &str, figures: &[(String, String)]) -> Result<Vec<Figur
     let example = "give FIGURE=VALUE, such as hic15=700 or 'head_excursion.forward=650 mm'";
     let (name, value) = text.split_once('=').ok_or_else(|| refused("it has no `=`".to_owned(), example))?;
     let name = name.trim();
-    let fitting: Vec<&(String, String)> = figures.iter().filter(|(figure, _)| star(name, figure).is_some()).collect();
+    let pieces: Vec<&str> = name.split('*').collect();
+    let fitting: Vec<&(String, String)> = figures.iter().filter(|(figure, _)| matches(figure, &pieces)).collect();
     if fitting.is_empty() {
         let near = nearest(name, figures.iter().map(|(figure, _)| figure.as_str()));
         let help = near.map_or(example.to_owned(), |near| format!("did you mean `{near}`?"));
