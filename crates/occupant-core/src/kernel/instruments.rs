@@ -313,8 +313,8 @@ impl<S: Scalar> SideSites<S> {
     #[inline(always)]
     fn read(&self, system: &System<S>, from: &Carried<'_, S>, reading: &mut Reading<S>) {
         let k = from.k;
-        let [left, right] = self.ribs.map(|plate| k.slides[plate % MOST_SLIDES].way);
-        reading[SIDE] = left.max(right);
+        let [left, right] = self.ribs;
+        reading[SIDE] = k.slides[left % MOST_SLIDES].way.max(k.slides[right % MOST_SLIDES].way);
         if let Some(plate) = self.abdomen {
             reading[SIDE + 1] = from.resist[plate % MOST_SLIDES].abs();
         }
@@ -322,8 +322,8 @@ impl<S: Scalar> SideSites<S> {
         let felt = from.accelerations.at(k, self.chest, k.axes[self.chest].out(self.t12)) + gravity;
         put(reading, SIDE + 2, told(k, self.chest, felt));
         if let Some(pelvis) = self.pelvis {
-            let [left, right] = pelvis.map(|plate| from.resist[plate % MOST_SLIDES].abs());
-            reading[SIDE + 5] = left.max(right);
+            let [left, right] = pelvis;
+            reading[SIDE + 5] = from.resist[left % MOST_SLIDES].abs().max(from.resist[right % MOST_SLIDES].abs());
             reading[SIDE + 6] = self.pubic_share * reading[SIDE + 5];
         }
     }
