@@ -277,3 +277,20 @@ fn an_ensemble_can_be_quoted() {
         assert!(paragraph.contains(words), "{words}: {paragraph}");
     }
 }
+
+/// A name that no result has is told, with the one meant, before any member is run: a hundred thousand would take hours.
+#[test]
+fn what_cannot_be_quoted_is_refused_before_the_members_are_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = scenario("cart-lap.toml");
+    let run = ["run", file.to_str().unwrap(), "--no-mcap", "--until", "5 ms", "--ensemble", "100000"];
+    for (words, found, help) in [
+        (["--quote", "hic51"], "--quote hic51: there is no such result", "did you mean `hic15`?"),
+        (["--limit", "hic51=700"], "--limit hic51: there is no such result", "did you mean `hic15`?"),
+        (["--limit", "head.peak=80"], "`80` has no unit", "write the unit after the number"),
+    ] {
+        let output = answer(folder.path(), &[&run[..], &words].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains(found) && said.contains(help), "{words:?}: {said}");
+    }
+}

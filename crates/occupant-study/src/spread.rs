@@ -113,8 +113,8 @@ impl Spread {
     }
 }
 
-/// The numbers in increasing order, without NaN.
-pub(crate) fn sorted(values: &[f64]) -> Vec<f64> {
+/// The finite numbers in increasing order.
+pub fn sorted(values: &[f64]) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_unstable_by(f64::total_cmp);
     sorted

@@ -105,12 +105,8 @@ fn meet(request: Request, file: &[u8], told: &mut dyn FnMut(f64)) -> Result<Answ
 
 /// The scenarios among the templates.
 fn templates() -> Vec<Named> {
-    let scenarios = Template::ALL.into_iter().filter(|template| *template != Template::Study);
-    let named = |template: Template| {
-        let (name, meaning) = template.words();
-        Named { name, meaning, text: template.text() }
-    };
-    scenarios.map(named).collect()
+    let scenarios = Template::ALL.into_iter().filter(|template| !template.is_study());
+    scenarios.map(|t| Named { name: t.name, meaning: t.meaning, text: t.text() }).collect()
 }
 
 impl Answer {

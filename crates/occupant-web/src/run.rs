@@ -1,6 +1,5 @@
 //! Runs of a case.
 
-use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -16,7 +15,7 @@ use occupant_files::mcap::{McapOptions, McapRecorder};
 use occupant_files::results::Results;
 use occupant_files::steps;
 use occupant_jobs::base::{Failure, Units};
-use occupant_jobs::report::{Gathered, Run, Told};
+use occupant_jobs::report::{PageRecorder, Run, Source};
 use occupant_jobs::run::recording::{about, document};
 use serde::Serialize;
 
@@ -60,7 +59,7 @@ impl Recorder for Progress<'_> {
 pub fn run(case: &Case, told: &mut dyn FnMut(f64)) -> Result<Ran, Refused> {
     let Opened { loaded, model, mut warnings } = case.open()?;
     let (mut summarizer, mut friction) = (Summarizer::new(), FrictionWatch::new());
-    let mut gathered = Gathered::new(&model);
+    let mut gathered = PageRecorder::new(&model);
     let progress = Progress { told, span_s: [0.0, 1.0] };
     let seen = (progress, ((&mut summarizer, &mut friction), &mut gathered));
     let outcome = attempt(&model, seen).map_err(Failure::broke_off)?;
@@ -72,7 +71,7 @@ pub fn run(case: &Case, told: &mut dyn FnMut(f64)) -> Result<Ran, Refused> {
         warnings.extend(loaded.diagnose(&friction.warnings(&model)));
     }
     let reason = summary.reason.as_ref().map(|reason| format!("the run did not complete: {reason}"));
-    let told = Told {
+    let told = Source {
         label: case.name.clone(),
         notes: reason.into_iter().collect(),
         origin: origin(case),
@@ -133,16 +132,11 @@ pub fn saved(case: &Case, told: &mut dyn FnMut(f64)) -> Result<Vec<u8>, Refused>
     let unwritten = |e: &dyn std::fmt::Display| Failure::broke_off(format!("the file cannot be written: {e}"));
     let recorder = McapRecorder::new(Cursor::new(Vec::new()), about, McapOptions::default());
     let mut recorder = recorder.map_err(|e| unwritten(&e))?;
-    for (name, text) in tables(case) {
-        recorder = recorder.with_table(document(&name, "text/csv", text.into_bytes()));
+    for (name, text) in &case.tables {
+        recorder = recorder.with_table(document(name, "text/csv", text.clone().into_bytes()));
     }
     let progress = Progress { told, span_s: [0.0, 1.0] };
     attempt(&model, (progress, &mut recorder)).map_err(|e| unwritten(&e))?;
     let bytes = recorder.into_inner().map_err(|e| unwritten(&e))?.into_inner();
     Ok(bytes)
-}
-
-/// The tables that the scenario names.
-fn tables(case: &Case) -> BTreeMap<String, String> {
-    case.tables.clone()
 }

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
-use clap::builder::PossibleValue;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 
 use crate::base::{Failure, publish, quoted, say};
 use occupant_jobs::templates::Template;
@@ -16,8 +15,8 @@ pub(crate) struct Args {
     file: PathBuf,
 
     /// The template
-    #[arg(short, long, value_enum, default_value_t)]
-    template: Named,
+    #[arg(short, long, value_parser = names(), default_value = Template::ALL[0].name)]
+    template: String,
 
     /// Replace an existing file
     #[arg(short, long)]
@@ -28,28 +27,9 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-/// A template by its name on the command line.
-#[derive(Clone, Copy, Debug, Default)]
-struct Named(Template);
-
-impl ValueEnum for Named {
-    fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [Named; Template::ALL.len()] = {
-            let mut all = [Named(Template::Driver); Template::ALL.len()];
-            let mut i = 0;
-            while i < all.len() {
-                all[i] = Named(Template::ALL[i]);
-                i += 1;
-            }
-            all
-        };
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let (name, meaning) = self.0.words();
-        Some(PossibleValue::new(name).help(meaning))
-    }
+/// The names of all templates, with what they describe.
+fn names() -> PossibleValuesParser {
+    Template::ALL.map(|template| PossibleValue::new(template.name).help(template.meaning)).into()
 }
 
 /// Writes the starter scenario.
@@ -62,9 +42,10 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     if file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("toml")) {
         return Err(Failure::with_help(format!("{name}: the template is written as TOML"), "use the extension .toml"));
     }
-    publish(&file, args.force, args.template.0.text().as_bytes())?;
+    let template = Template::named(&args.template).unwrap_or(Template::ALL[0]);
+    publish(&file, args.force, template.text().as_bytes())?;
     if !args.quiet {
-        say(&format!("wrote {name}\nnext: {}", args.template.0.next(&quoted(&name))));
+        say(&format!("wrote {name}\nnext: {}", template.next(&quoted(&name))));
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use super::quotes::{Subject, quotes};
 use super::{Bands, Left, Members, Report, plot};
 use crate::base::{Existing, Failure, Interrupt, Show, Units, program, write_whole};
 use crate::files::scenario::Opened;
-use crate::quoted::{Limits, parse_limit};
+use crate::quoted::{Limits, fitting, parse_limit};
 use occupant_files::table::{Form, TableFile};
 use occupant_pictures::Format;
 
@@ -70,6 +70,9 @@ impl Wanted {
         interrupt: &Interrupt,
         show: Show,
     ) -> Result<Report, Failure> {
+        let time_s = histories.time_s.clone();
+        let nominal = Left::of(summary, &opened.model, histories);
+        let (limits, quote) = self.asked(&nominal, &opened.model)?;
         let bar = show.bar(self.study.len() - 1, "members");
         // what the scenario names was read with it and is not read again
         let tables = opened.loaded.tables();
@@ -87,14 +90,11 @@ impl Wanted {
             bar: bar.as_deref(),
         };
         let others = members.run(&self.engine)?;
-        let time_s = histories.time_s.clone();
-        let nominal = Left::of(summary, &opened.model, histories);
         let completed = others.iter().flatten().map(|left| left.values.as_slice());
         let runs: Vec<&[Vec<f64>]> = std::iter::once(nominal.values.as_slice()).chain(completed).collect();
         let bands = Bands::of(&self.channels, time_s, &runs, self.within);
         let mut report = Report::of(&nominal, &others, self.within, bands, (self.seed, self.changes));
         let title = shown(&summary.title);
-        let limits = self.limits_of(&nominal, &opened.model)?;
         let subject = Subject {
             simulated: format!("{} simulated {} (“{title}”)", program(), self.study.base_name),
             seed: self.seed,
@@ -104,16 +104,20 @@ impl Wanted {
             units: self.units,
         };
         report.quotes = quotes(&subject, &nominal, &others);
-        (report.inputs, report.quote) = (self.inputs.clone(), self.quote.clone());
+        (report.inputs, report.quote) = (self.inputs.clone(), quote);
         let files = self.files.iter().map(|file| self.write(&report, file, &title));
         report.files = files.collect::<Result<_, _>>()?;
         Ok(report)
     }
 
-    fn limits_of(&self, nominal: &Left, model: &Model) -> Result<Limits, Failure> {
+    /// Limits, and the names of the figures whose paragraphs are printed: known before the members are run.
+    fn asked(&self, nominal: &Left, model: &Model) -> Result<(Limits, Vec<String>), Failure> {
         let figures: Vec<_> = nominal.figures.iter().map(|f| (f.name.clone(), f.unit.to_owned())).collect();
-        let asked: Vec<_> = self.limits.iter().map(|text| parse_limit(text, &figures)).collect::<Result<_, _>>()?;
-        Ok(Limits::new(Some(model), asked.concat()))
+        let limits: Vec<_> = self.limits.iter().map(|text| parse_limit(text, &figures)).collect::<Result<_, _>>()?;
+        let quoted: Vec<_> =
+            self.quote.iter().map(|name| fitting("--quote", name.trim(), &figures)).collect::<Result<_, _>>()?;
+        let names = quoted.into_iter().flatten().map(|(name, _)| name.clone()).collect();
+        Ok((Limits::new(Some(model), limits.concat()), names))
     }
 
     fn write(&self, report: &Report, (path, kind): &(PathBuf, BandFile), title: &str) -> Result<String, Failure> {

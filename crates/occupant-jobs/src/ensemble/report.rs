@@ -34,7 +34,7 @@ pub struct Report {
     pub inputs: Vec<String>,
     /// What the changed runs say of each figure.
     pub quotes: Vec<Statement>,
-    /// Names and patterns of figures whose paragraphs are printed.
+    /// Names of figures whose paragraphs are printed.
     #[serde(skip)]
     pub quote: Vec<String>,
 }

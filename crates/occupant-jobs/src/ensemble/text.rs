@@ -1,6 +1,5 @@
 //! An ensemble as text: changes, stable figures, times at which the members diverge.
 
-use occupant_core::results::channel::star;
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 
@@ -43,8 +42,7 @@ pub fn text(report: &Report, units: Units) -> String {
         parts.push(channels(report, units));
     }
     parts.push(conclusion(report));
-    let asked = |figure: &str| report.quote.iter().any(|pattern| star(pattern, figure).is_some());
-    let quoted = report.quotes.iter().filter(|quote| asked(&quote.figure));
+    let quoted = report.quotes.iter().filter(|quote| report.quote.contains(&quote.figure));
     parts.extend(quoted.map(|quote| format!("{}\n", quote.paragraph)));
     parts.join("\n")
 }

@@ -38,19 +38,32 @@ pub fn parse_limit(text: &str, figures: &[(String, String)]) -> Result<Vec<Figur
     let refused = |found: String, help: &str| Failure::with_help(format!("--limit {text}: {found}"), help);
     let example = "give FIGURE=VALUE, such as hic15=700 or 'head_excursion.forward=650 mm'";
     let (name, value) = text.split_once('=').ok_or_else(|| refused("it has no `=`".to_owned(), example))?;
-    let name = name.trim();
-    let pieces: Vec<&str> = name.split('*').collect();
-    let fitting: Vec<&(String, String)> = figures.iter().filter(|(figure, _)| matches(figure, &pieces)).collect();
-    if fitting.is_empty() {
-        let near = nearest(name, figures.iter().map(|(figure, _)| figure.as_str()));
-        let help = near.map_or(example.to_owned(), |near| format!("did you mean `{near}`?"));
-        return Err(refused(format!("there is no figure `{name}`"), &help));
-    }
+    let fitting = fitting("--limit", name.trim(), figures)?;
     let limit = |(figure, unit): &(String, String)| {
         let most = in_unit(value.trim(), unit).map_err(|(found, help)| refused(found, &help))?;
         Ok(FigureLimit { figure: figure.clone(), rule: None, dummy: None, most, quoted: true })
     };
     fitting.into_iter().map(limit).collect()
+}
+
+/// The figures (name and unit) that a name, or a pattern with stars, of this flag fits; at least one.
+///
+/// # Errors
+/// It fits none.
+pub fn fitting<'f>(
+    flag: &str,
+    name: &str,
+    figures: &'f [(String, String)],
+) -> Result<Vec<&'f (String, String)>, Failure> {
+    let pieces: Vec<&str> = name.split('*').collect();
+    let found: Vec<_> = figures.iter().filter(|(figure, _)| matches(figure, &pieces)).collect();
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let near = nearest(name, figures.iter().map(|(figure, _)| figure.as_str()));
+    let example = "give the name of a result, such as hic15, or a pattern, such as 'head.*'".to_owned();
+    let help = near.map_or(example, |near| format!("did you mean `{near}`?"));
+    Err(Failure::with_help(format!("{flag} {name}: there is no such result"), &help))
 }
 
 /// A value with its unit as a number of a figure's unit; a figure with a unit needs one here.

@@ -4,7 +4,7 @@
 mod limits;
 mod paragraph;
 
-pub use limits::{Limits, parse_limit};
+pub use limits::{Limits, fitting, parse_limit};
 pub use paragraph::percent;
 
 use occupant_core::results::summary::FigureLimit;

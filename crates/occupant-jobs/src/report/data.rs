@@ -114,7 +114,7 @@ struct SurfaceData {
 
 /// Records what a page shows of a run, output by output.
 #[derive(Debug)]
-pub struct Gathered {
+pub struct PageRecorder {
     motion: Motion,
     series: Series,
     ride: RideDown,
@@ -122,7 +122,7 @@ pub struct Gathered {
 
 /// What a page tells of a run beside its outputs.
 #[derive(Clone, Debug, Default)]
-pub struct Told {
+pub struct Source {
     /// Name of the run on the page.
     pub label: String,
     /// Notes to read before using the results.
@@ -133,15 +133,15 @@ pub struct Told {
     pub scenario: String,
 }
 
-impl Gathered {
+impl PageRecorder {
     /// A recorder of a run of the model.
     pub fn new(model: &Model) -> Self {
-        Gathered { motion: Motion::default(), series: curves::series(model), ride: RideDown::default() }
+        PageRecorder { motion: Motion::default(), series: curves::series(model), ride: RideDown::default() }
     }
 
     /// The run on the page.
-    pub fn run(self, model: &Model, summary: &Summary, told: Told, units: Units) -> Run {
-        let Gathered { motion, series, ride } = self;
+    pub fn run(self, model: &Model, summary: &Summary, told: Source, units: Units) -> Run {
+        let PageRecorder { motion, series, ride } = self;
         let mut times = Array::default();
         times.float64(&series.time_s);
         let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
@@ -175,7 +175,7 @@ impl Gathered {
     }
 }
 
-impl Recorder for Gathered {
+impl Recorder for PageRecorder {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         (&mut self.ride, (&mut self.motion, &mut self.series)).begin(model)
     }
@@ -200,9 +200,9 @@ impl Run {
     /// # Errors
     /// None for a file that was opened.
     pub fn of(results: &Results, units: Units) -> Result<Self, Failure> {
-        let mut gathered = Gathered::new(&results.model);
+        let mut gathered = PageRecorder::new(&results.model);
         results.replay(&mut gathered)?;
-        let told = Told {
+        let told = Source {
             label: Run::label_of(results),
             notes: results.notes(),
             origin: provenance::origin(results),

@@ -16,7 +16,7 @@ mod vehicles;
 use crate::base::{Failure, Units, program};
 use occupant_files::results::Results;
 
-pub use data::{Gathered, Report, Run, Told, subject};
+pub use data::{PageRecorder, Report, Run, Source, subject};
 
 /// Largest number of runs on a page: each has its own colour.
 pub const MOST_RUNS: usize = 4;

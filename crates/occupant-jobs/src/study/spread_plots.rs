@@ -1,6 +1,7 @@
 //! Histogram and distribution of a figure as plots.
 
 use occupant_study::certainty::Histogram;
+use occupant_study::spread::sorted;
 
 use super::quoting::bars;
 use crate::base::Told;
@@ -43,13 +44,6 @@ pub fn distribution(of: &Statement, unit: &Told) -> String {
     curves.extend(limits(of, unit, 1.0));
     let axes = [Axis::of(&of.figure, symbol), Axis { includes: Some([0.0, 1.0]), ..Axis::of("fraction", "") }];
     inline(&Figure::new(&title("Distribution", of), axes, curves), SIZE)
-}
-
-/// Values in increasing order.
-pub fn sorted(values: &[f64]) -> Vec<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
-    sorted
 }
 
 fn title(what: &str, of: &Statement) -> String {

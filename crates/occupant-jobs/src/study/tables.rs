@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::quoting::bars;
-use super::spread_plots::sorted;
 use super::{Finding, Number, Report};
 use crate::base::{Existing, Failure};
 use crate::quoted::Statement;
 use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
+use occupant_study::spread::sorted;
 
 /// Files of a report's tables.
 #[derive(Clone, Debug)]

@@ -4,37 +4,28 @@
 pub const STARTER: &str = include_str!("driver.toml");
 
 /// A scenario or study to start from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Template {
-    /// A belted driver, 50 km/h into a stop.
-    #[default]
-    Driver,
-    /// The same in a right-hand-drive car.
-    RightHandDrive,
-    /// A belted passenger behind the driver.
-    RearSeat,
-    /// A belted driver struck on the near side.
-    Side,
-    /// A belted driver struck on the far side.
-    FarSide,
-    /// A driver struck from behind.
-    Rear,
-    /// A belted driver in a quarter-turn rollover.
-    Rollover,
-    /// A crash recorded by an event data recorder.
-    Edr,
-    /// A belted occupant on a sled.
-    Sled,
-    /// Head and neck of a volunteer.
-    Neck,
-    /// A pedestrian struck by a braking car.
-    Pedestrian,
-    /// A crash recorded by sensors in the car.
-    Sensors,
-    /// A sedan that runs off the road.
-    Drive,
-    /// A study of my-case.toml.
-    Study,
+#[derive(Clone, Copy, Debug)]
+pub struct Template {
+    /// Its name.
+    pub name: &'static str,
+    /// What it describes.
+    pub meaning: &'static str,
+    content: Content,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Content {
+    Whole(&'static str),
+    /// Sections that replace those of the driver's scenario, or are added to it.
+    Changes(&'static str),
+}
+
+const fn whole(name: &'static str, meaning: &'static str, text: &'static str) -> Template {
+    Template { name, meaning, content: Content::Whole(text) }
+}
+
+const fn changes(name: &'static str, meaning: &'static str, text: &'static str) -> Template {
+    Template { name, meaning, content: Content::Changes(text) }
 }
 
 /// A section and the comments before it.
@@ -47,72 +38,47 @@ struct Section<'a> {
 
 impl Template {
     /// All templates, the default first.
-    pub const ALL: [Template; 14] = {
-        use Template::*;
-        [
-            Driver,
-            RightHandDrive,
-            RearSeat,
-            Side,
-            FarSide,
-            Rear,
-            Rollover,
-            Edr,
-            Sled,
-            Neck,
-            Pedestrian,
-            Sensors,
-            Drive,
-            Study,
-        ]
-    };
+    #[rustfmt::skip]
+    pub const ALL: [Template; 14] = [
+        whole("driver", "A belted driver, 50 km/h into a stop", STARTER),
+        changes("right-hand-drive", "The same in a right-hand-drive car", include_str!("right-hand-drive.toml")),
+        changes("rear-seat", "A belted passenger behind the driver, 50 km/h into a stop", include_str!("rear-seat.toml")),
+        changes("side", "A belted driver struck on the near side", include_str!("side.toml")),
+        changes("far-side", "A belted driver struck on the far side", include_str!("far-side.toml")),
+        changes("rear", "A driver struck from behind", include_str!("rear.toml")),
+        changes("rollover", "A belted driver in a quarter-turn rollover", include_str!("rollover.toml")),
+        changes("edr", "A belted driver in a crash recorded by an event data recorder", include_str!("edr.toml")),
+        whole("sled", "A belted occupant on a sled, with a tabulated pulse", include_str!("sled.toml")),
+        whole("neck", "Head and neck of a living volunteer driven at T1, as in sled tests", include_str!("neck.toml")),
+        whole("pedestrian", "A pedestrian struck by a braking car", include_str!("pedestrian.toml")),
+        changes("sensors", "A belted driver in a crash recorded by sensors in the car", include_str!("sensors.toml")),
+        changes("drive", "A sedan with a belted driver that runs off the road into a ditch", include_str!("drive.toml")),
+        whole("study", "A study of my-case.toml: its parameters and their ranges", include_str!("study.toml")),
+    ];
 
-    /// Its name, and what it describes.
-    pub fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Template::Driver => ("driver", "A belted driver, 50 km/h into a stop"),
-            Template::RightHandDrive => ("right-hand-drive", "The same in a right-hand-drive car"),
-            Template::RearSeat => ("rear-seat", "A belted passenger behind the driver, 50 km/h into a stop"),
-            Template::Side => ("side", "A belted driver struck on the near side"),
-            Template::FarSide => ("far-side", "A belted driver struck on the far side"),
-            Template::Rear => ("rear", "A driver struck from behind"),
-            Template::Rollover => ("rollover", "A belted driver in a quarter-turn rollover"),
-            Template::Edr => ("edr", "A belted driver in a crash recorded by an event data recorder"),
-            Template::Sled => ("sled", "A belted occupant on a sled, with a tabulated pulse"),
-            Template::Neck => ("neck", "Head and neck of a living volunteer driven at T1, as in sled tests"),
-            Template::Pedestrian => ("pedestrian", "A pedestrian struck by a braking car"),
-            Template::Sensors => ("sensors", "A belted driver in a crash recorded by sensors in the car"),
-            Template::Drive => ("drive", "A sedan with a belted driver that runs off the road into a ditch"),
-            Template::Study => ("study", "A study of my-case.toml: its parameters and their ranges"),
-        }
+    /// The template with this name.
+    pub fn named(name: &str) -> Option<Template> {
+        Template::ALL.into_iter().find(|template| template.name == name)
     }
 
-    /// The scenario.
+    /// Whether it is a study, not a scenario.
+    pub fn is_study(self) -> bool {
+        self.name == "study"
+    }
+
+    /// Its text.
     pub fn text(self) -> String {
-        let driver = STARTER;
-        match self {
-            Template::Driver => driver.to_owned(),
-            Template::RightHandDrive => changed(driver, include_str!("right-hand-drive.toml")),
-            Template::RearSeat => changed(driver, include_str!("rear-seat.toml")),
-            Template::Side => changed(driver, include_str!("side.toml")),
-            Template::FarSide => changed(driver, include_str!("far-side.toml")),
-            Template::Rear => changed(driver, include_str!("rear.toml")),
-            Template::Rollover => changed(driver, include_str!("rollover.toml")),
-            Template::Edr => changed(driver, include_str!("edr.toml")),
-            Template::Sled => include_str!("sled.toml").to_owned(),
-            Template::Neck => include_str!("neck.toml").to_owned(),
-            Template::Pedestrian => include_str!("pedestrian.toml").to_owned(),
-            Template::Sensors => changed(driver, include_str!("sensors.toml")),
-            Template::Drive => changed(driver, include_str!("drive.toml")),
-            Template::Study => include_str!("study.toml").to_owned(),
+        match self.content {
+            Content::Whole(text) => text.to_owned(),
+            Content::Changes(text) => changed(STARTER, text),
         }
     }
 
     /// Next commands for a file of this name.
     pub fn next(self, name: &str) -> String {
-        match self {
-            Template::Drive => format!("occupant drive {name}\n      occupant run {name}"),
-            Template::Study => format!("occupant sweep {name} --dry-run\n      occupant sweep {name}"),
+        match self.name {
+            "drive" => format!("occupant drive {name}\n      occupant run {name}"),
+            "study" => format!("occupant sweep {name} --dry-run\n      occupant sweep {name}"),
             _ => format!("occupant check {name}\n      occupant run {name}"),
         }
     }

@@ -166,17 +166,7 @@ pub(super) fn sides(
         lines.extend(header(plate, name, at, &inward, scale.mass * ribs.mass_kg, Some(2.0 * half_m)));
         lines.extend(ribs.words(&scale));
     }
-    let of_pelvis = body.tree.landmarks().pelvis.zip(body.sphere("pelvis"));
-    if let Some((segment, sphere)) = of_pelvis {
-        let scale = if choice == SidesChoice::Es2 { Scale::NONE } else { Scale::of(larger(segment), 1.0) };
-        let (name, sphere) = (body.tree[segment].name, &body.spheres[sphere]);
-        for (plate, sign) in PELVIS {
-            let at = [0.0, sign * shape::PELVIS_OUT * sphere.radius_m, sphere.centre_from_lower_end_m.z];
-            let inward = format!("[0, {}, 0]", -sign);
-            lines.extend(header(plate, name, at, &inward, scale.mass * pelvis.mass_kg, None));
-            lines.extend(pelvis.words(&scale));
-        }
-    }
+    lines.extend(pelvis_sides(choice, &pelvis, body, larger));
     let Some(above) = middle(body) else { return lines };
     let (name, length_m) = (body.tree[above].name, body.segment(above).length_m);
     let mass_kg = (0.1 * body.segment(above).mass_kg).min(0.5);
@@ -184,6 +174,21 @@ pub(super) fn sides(
     lines.push(format!("spring = {{ depth = [0, 1], force = [0, {}], returned = 0.3 }}", number(stiffness)));
     lines.push(format!("damper = {{ linear = {} }}", number(damping)));
     lines
+}
+
+/// The same of the sides of a pelvis; `larger` is the ratio of a segment's mass to that of the reference.
+fn pelvis_sides(choice: SidesChoice, own: &Part, body: &Body, larger: impl Fn(Segment) -> f64) -> Vec<String> {
+    let Some((segment, sphere)) = body.tree.landmarks().pelvis.zip(body.sphere("pelvis")) else { return Vec::new() };
+    let scale = if choice == SidesChoice::Es2 { Scale::NONE } else { Scale::of(larger(segment), 1.0) };
+    let (name, sphere) = (body.tree[segment].name, &body.spheres[sphere]);
+    let side = |(plate, sign): (&str, f64)| {
+        let at = [0.0, sign * shape::PELVIS_OUT * sphere.radius_m, sphere.centre_from_lower_end_m.z];
+        let inward = format!("[0, {}, 0]", -sign);
+        let mut lines = header(plate, name, at, &inward, scale.mass * own.mass_kg, None);
+        lines.extend(own.words(&scale));
+        lines
+    };
+    PELVIS.into_iter().flat_map(side).collect()
 }
 
 /// Half of the breadth of a chest: out to the surface of the spheres at its sides; of a dummy the defined value, m.

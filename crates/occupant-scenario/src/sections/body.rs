@@ -390,9 +390,7 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
     let radii_m: Vec<f64> = standard.iter().map(radius_m).collect();
     let mut spheres = Vec::new();
     for sphere in body.standard_spheres(&radii_m) {
-        if let Some(section) = kept(&sphere.name) {
-            spheres.push(changed(b, body, sphere, section));
-        }
+        spheres.extend(kept(&sphere.name).map(|section| changed(b, body, sphere, section)));
     }
     let set = body_section.sphere_set.unwrap_or(SphereSet::Report);
     let usual_apart = if set == SphereSet::Even { shape::APART_EVENLY } else { shape::APART };
@@ -402,8 +400,8 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
     let yields_aside =
         set != SphereSet::Report && body_section.sides.is_some_and(|choice| choice != SidesChoice::Rigid);
     let is_later = |name: &str| yields_aside && ["left_abdomen", "right_abdomen"].contains(&name);
-    let own = sections.iter().filter(|(name, _)| standard.iter().all(|row| row.name != *name) && !is_later(name));
-    for (name, section) in own {
+    let is_own = |name: &str| standard.iter().all(|row| row.name != name) && !is_later(name);
+    for (name, section) in sections.iter().filter(|(name, _)| is_own(name)) {
         let known = spheres.iter().position(|sphere| sphere.name == *name);
         match (known, section.remove) {
             (Some(i), Some(true)) => drop(spheres.remove(i)),
@@ -412,18 +410,29 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
             (None, _) => spheres.extend(own_sphere(b, body, name, section)),
         }
     }
-    let abdomen = spheres.iter().find(|sphere| sphere.name == "abdomen" && yields_aside).cloned();
-    for side in abdomen.iter().flat_map(shape::sides_of_abdomen) {
-        match sections.get(&side.name) {
-            Some(section) if section.remove == Some(true) => {}
-            Some(section) => spheres.push(changed(b, body, side, section)),
-            None => spheres.push(side),
-        }
+    if yields_aside {
+        spheres.extend(sides_of_abdomen(b, body_section, body, &spheres));
     }
     if set == SphereSet::Even {
         shape::share_evenly(&mut spheres);
     }
     spheres
+}
+
+/// Spheres at the sides of an abdomen, if there is one, changed or left out as the section says.
+fn sides_of_abdomen(
+    b: &mut Builder,
+    body_section: &BodySection,
+    body: &Body,
+    spheres: &[ContactSphere],
+) -> Vec<ContactSphere> {
+    let abdomen = spheres.iter().find(|sphere| sphere.name == "abdomen");
+    let side = |sphere: ContactSphere| match body_section.spheres.get(&sphere.name) {
+        Some(section) if section.remove == Some(true) => None,
+        Some(section) => Some(changed(b, body, sphere, section)),
+        None => Some(sphere),
+    };
+    abdomen.into_iter().flat_map(shape::sides_of_abdomen).filter_map(side).collect()
 }
 
 /// A sphere of the set with its own size, position or part.

@@ -3,6 +3,7 @@
 //! The structs are the only declaration of the keys: the JSON Schema, and so the check, the overrides and the hints,
 //! come from them. Their doc comments are the descriptions in the schema, so they address the author of a scenario.
 
+mod adjusted;
 mod bags;
 mod belts;
 mod body;

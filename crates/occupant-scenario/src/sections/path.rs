@@ -4,6 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::adjusted::{CHANGES, scale_to, shift, turned};
 use super::builder::Builder;
 use super::drive::{self, DrivenPathSection};
 use super::number_table::{Column, NumberTable, column, names_of, read_csv, read_inline};
@@ -14,8 +15,8 @@ use super::{Angle, Frequency, Length, Ratio, Scenario, Speed, Time};
 use crate::kind;
 use crash_measures::signal::smooth;
 use occupant_core::vehicle::{
-    AfterEnd, Attitude, FixedPath, Interpolation, PathCursor, PathProblem, Station, TablePath, TravelDirection,
-    VehiclePath, VehiclePose,
+    AfterEnd, Attitude, FixedPath, Interpolation, PathProblem, Station, TablePath, TravelDirection, VehiclePath,
+    VehiclePose,
 };
 use placed_text::{Diagnostic, Problem, SourceId, with_key};
 
@@ -200,95 +201,6 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
         (path, _) => path.and_then(|path| strength.map_or(Ok(path.clone()), |strength| path.with_strength(strength))),
     };
     found.map_err(|p| refuse(b, &p, Some(&table))).ok()
-}
-
-/// What `delta_v` needs.
-pub(super) const CHANGES: &str = "a table in which the velocity changes, or no `delta_v`";
-
-/// The strength with which a path has this largest change of the horizontal velocity, m/s, by the secant method: a strength
-/// acts in proportion unless the vehicle turns.
-///
-/// # Errors
-/// A path without a change of velocity, or one that no strength scales to it.
-pub(super) fn scale_to(
-    asked_m_s: f64,
-    table: &NumberTable,
-    path: impl Fn(f64) -> Option<VehiclePath>,
-) -> Result<f64, String> {
-    let change = |strength: f64| path(strength).map(|path| delta_v_m_s(&path, table));
-    let unscaled = || "a delta-v to which no strength scales the table".to_owned();
-    let own = change(1.0).ok_or_else(unscaled)?;
-    if own < 1e-6 {
-        return Err("a `delta_v` beside a table in which the velocity does not change".to_owned());
-    }
-    let (mut before, mut strength) = ((0.0, 0.0), asked_m_s / own);
-    for _ in 0..40 {
-        let found = change(strength).ok_or_else(unscaled)?;
-        let slope = (found - before.1) / (strength - before.0);
-        if (found - asked_m_s).abs() <= 1e-10 * asked_m_s {
-            return Ok(strength);
-        }
-        before = (strength, found);
-        strength += (asked_m_s - found) / slope;
-        if !(strength.is_finite() && strength > 0.0) {
-            break;
-        }
-    }
-    Err(unscaled())
-}
-
-/// Largest change of the horizontal velocity from the first time of a table on, at its times and between, m/s.
-fn delta_v_m_s(path: &VehiclePath, table: &NumberTable) -> f64 {
-    const BETWEEN: usize = 8;
-    let mut cursor = PathCursor::default();
-    let mut velocity = |t_s: f64| path.motion(t_s, t_s, &mut cursor).velocity_m_s;
-    let first = velocity(table.rows.first().map_or(0.0, |row| row[0]));
-    let mut most: f64 = 0.0;
-    for pair in table.rows.windows(2) {
-        for i in 1..=BETWEEN {
-            let part = i as f64 / BETWEEN as f64;
-            let change = velocity(pair[0][0] * (1.0 - part) + pair[1][0] * part) - first;
-            most = most.max(change.xy().norm());
-        }
-    }
-    most
-}
-
-/// Moves the clock of a table. A table that begins later gets a row at its old first time, made by `before` of that time
-/// and the first two rows.
-pub(super) fn shift(table: &mut NumberTable, shift: &Option<Time>, before: impl Fn(f64, &[f64], &[f64]) -> Vec<f64>) {
-    let shift_s = si_or(shift, 0.0);
-    let Some(old_s) = table.rows.first().map(|row| row[0]).filter(|_| shift_s != 0.0) else { return };
-    table.rows.iter_mut().for_each(|row| row[0] += shift_s);
-    if let (true, [first, second, ..]) = (shift_s > 0.0, &table.rows[..]) {
-        let mut row = before(old_s, first, second);
-        row[0] = old_s;
-        table.rows.insert(0, row);
-        if let Some(span) = table.row_spans.first().copied() {
-            table.row_spans.insert(0, span);
-        }
-    }
-}
-
-/// The path with its changes of horizontal velocity turned about the vertical.
-fn turned(path: TablePath, turn_rad: f64) -> Result<TablePath, Vec<PathProblem>> {
-    if turn_rad == 0.0 {
-        return Ok(path);
-    }
-    let (first, after) = (path.stations()[0], path.after());
-    let interpolation = path.interpolation();
-    let whole = VehiclePath::Table(path.clone());
-    let speed_m_s = whole.motion(first.time_s, first.time_s, &mut PathCursor::default()).velocity_m_s;
-    // motions are in axes with Y to the left and Z up, stations to the right and down
-    let speed_m_s = Vector3::new(speed_m_s.x, -speed_m_s.y, -speed_m_s.z);
-    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), turn_rad);
-    let station = |station: &Station| {
-        let steady = first.pose.position_m + speed_m_s * (station.time_s - first.time_s);
-        let place = steady + turn * (station.pose.position_m - steady);
-        let Attitude { roll_rad, pitch_rad, yaw_rad } = station.pose.attitude;
-        Station::new(station.time_s, place.into(), [roll_rad, pitch_rad, yaw_rad])
-    };
-    TablePath::new(path.stations().iter().map(station).collect(), interpolation, after)
 }
 
 /// Checks that each axis has a position or an acceleration, and that the path has accelerations if the table does.

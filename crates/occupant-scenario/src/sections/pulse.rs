@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::adjusted::CHANGES;
 use super::builder::Builder;
 use super::number_table::{Column, column};
-use super::path::{CHANGES, numbers, pose, refuse, turned_direction};
+use super::path::{numbers, pose, refuse, turned_direction};
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Acceleration, Angle, Length, Ratio, Speed, Time};
 use crate::kind;

@@ -4,9 +4,10 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::adjusted::{CHANGES, scale_to, shift};
 use super::builder::Builder;
 use super::number_table::{Column, NumberTable, column};
-use super::path::{CHANGES, direction, numbers, pose, refuse, scale_to, shift};
+use super::path::{direction, numbers, pose, refuse};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Angle, Length, Ratio, Speed, Time};
 use crate::kind;
