@@ -56,6 +56,8 @@
 //! The crate reads no files and prints nothing. `docs/cards.md` holds the tables of all cards, the
 //! decisions where the report is silent, and what becomes of each card in a scenario.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod back;
 pub mod cards;
 mod check;

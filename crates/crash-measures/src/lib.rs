@@ -27,6 +27,8 @@
 //! | [`injury`] | all measures of an occupant from his instruments at once |
 //! | [`correlation`] | ISO 18571, CORA, Sprague and Geers, ANOVA |
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod correlation;
 pub mod injury;
 pub mod measure;

@@ -3,6 +3,8 @@
 //! Two rooms: `base` is how a command talks, and `commands` are flags, words and text tables. The work is done by
 //! `occupant-jobs`.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod base;
 mod commands;
 

@@ -92,6 +92,8 @@
 //! it `crash-measures` has filters and injury measures of any time history, and `placed-text` reads TOML, JSON and CSV
 //! with positions and reports their mistakes.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod body;
 pub mod diagnosis;
 pub mod forces;

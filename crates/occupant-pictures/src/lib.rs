@@ -9,6 +9,8 @@
 //! assert!(svg.finish().contains("<polyline"));
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod body;
 pub mod film;
 pub mod font;

@@ -1,5 +1,6 @@
 //! Triangle meshes of the parts of a body and of what there is to touch.
 
+use occupant_units::trig;
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Point3, Vector3};
@@ -26,8 +27,12 @@ pub(crate) fn hull(ends: &[Lump; 2], [round, along]: [u32; 2]) -> Mesh {
         let height = f64::from(i) / f64::from(along) * PI;
         for j in 0..round {
             let angle = f64::from(j) / f64::from(round) * TAU;
-            let direction =
-                axes(ends) * Vector3::new(height.sin() * angle.cos(), height.sin() * angle.sin(), height.cos());
+            let direction = axes(ends)
+                * Vector3::new(
+                    trig::sin(height) * trig::cos(angle),
+                    trig::sin(height) * trig::sin(angle),
+                    trig::cos(height),
+                );
             mesh.corners.push(farthest(ends, &direction).map(|x| x as f32));
             mesh.normals.push(direction.data.0[0].map(|x| x as f32));
         }

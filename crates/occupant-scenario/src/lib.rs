@@ -84,6 +84,8 @@
 //! | `own_recorder` | a custom recorder, and a run that ends early |
 //! | `sweep_with_rayon` | many runs on all cores |
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod car;
 mod check;
 mod draft;

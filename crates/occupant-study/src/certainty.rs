@@ -7,6 +7,7 @@
 //! section 7.1. A bootstrap of extreme quantiles would be too narrow.
 
 use crate::spread::quantile_of_sorted;
+use occupant_units::trig;
 use occupant_units::trig::ln;
 use serde::Serialize;
 
@@ -179,7 +180,7 @@ pub fn histogram(values: &[f64], per: f64) -> Option<Histogram> {
         return None;
     }
     let quarters = (quantile_of_sorted(&sorted, 0.75) - quantile_of_sorted(&sorted, 0.25)) / per;
-    let advised = 2.0 * quarters / (sorted.len() as f64).cbrt();
+    let advised = 2.0 * quarters / trig::cbrt(sorted.len() as f64);
     let width = round_up(advised.clamp(range / BARS, range / 4.0));
     let place = |x: f64| (x / per / width).floor();
     let first = place(*sorted.first()?);
@@ -190,7 +191,7 @@ pub fn histogram(values: &[f64], per: f64) -> Option<Histogram> {
 
 /// The next 1, 2 or 5 times a power of ten.
 fn round_up(x: f64) -> f64 {
-    let power = 10_f64.powi(x.log10().floor() as i32);
+    let power = trig::powi(10.0, trig::log10(x).floor() as i32);
     let steps = [1.0, 2.0, 5.0, 10.0];
     steps.into_iter().map(|step| step * power).find(|width| *width >= x * (1.0 - 1e-12)).unwrap_or(10.0 * power)
 }

@@ -47,6 +47,8 @@
 //! # Ok::<(), occupant_scenario::Diagnostics>(())
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod analysis;
 mod bind;
 pub mod certainty;

@@ -13,5 +13,7 @@
 //! # Ok::<(), occupant_units::unit::UnitError>(())
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod trig;
 pub mod unit;

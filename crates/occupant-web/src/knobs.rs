@@ -1,6 +1,7 @@
 //! The values of a scenario that a page lets one move by hand.
 
 use occupant_scenario::{Draft, Wanted};
+use occupant_units::trig;
 use occupant_units::unit::parse;
 use placed_text::Value;
 use serde::Serialize;
@@ -94,7 +95,7 @@ fn direction(draft: &Draft) -> Option<Knob> {
     let is_pulse = draft.get("path.kind").ok()?.into_iter().any(|(_, kind)| kind == Value::String("pulse".to_owned()));
     let part = |at: usize| draft.places(&format!("path.direction[{at}]")).ok()?.first()?.si;
     let now = match (part(0), part(1)) {
-        (Some(x), Some(y)) => y.atan2(x).to_degrees(),
+        (Some(x), Some(y)) => trig::atan2(y, x).to_degrees(),
         _ => 0.0,
     };
     let (path, label) = ("path.direction".to_owned(), "direction of travel, to the right of ahead".to_owned());

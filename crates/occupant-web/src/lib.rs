@@ -23,12 +23,12 @@
 //! assert!(answer.json.contains(r#""line":1,"column":9"#), "{}", answer.json);
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 #[cfg(target_family = "wasm")]
 mod abi;
 mod case;
 mod knobs;
-#[cfg(any(test, target_family = "wasm"))]
-mod rounded;
 mod run;
 mod study;
 
@@ -53,13 +53,31 @@ pub struct Answer {
 enum Request {
     About,
     Schema,
-    Check { case: Case },
-    Run { case: Case },
-    Write { case: Case },
-    Save { case: Case },
-    Open { name: String },
-    Study { case: Case, study: String },
-    Measure { case: Case },
+    Check {
+        case: Case,
+    },
+    Run {
+        case: Case,
+        /// Names and patterns of channels to plot before the others.
+        #[serde(default)]
+        channels: Vec<String>,
+    },
+    Write {
+        case: Case,
+    },
+    Save {
+        case: Case,
+    },
+    Open {
+        name: String,
+    },
+    Study {
+        case: Case,
+        study: String,
+    },
+    Measure {
+        case: Case,
+    },
 }
 
 /// Program and templates.
@@ -94,7 +112,7 @@ fn meet(request: Request, file: &[u8], told: &mut dyn FnMut(f64)) -> Result<Answ
         Request::About => Answer::of(&About { program: program(), templates: templates() }),
         Request::Schema => Answer { json: occupant_scenario::schema().to_string(), bytes: Vec::new() },
         Request::Check { case } => Answer::of(&case.checked()),
-        Request::Run { case } => Answer::of(&run::run(&case, told)?),
+        Request::Run { case, channels } => Answer::of(&run::run(&case, &channels, told)?),
         Request::Study { case, study } => Answer::of(&study::planned(&case, &study)?),
         Request::Measure { case } => Answer::of(&study::measured(&case)?),
         Request::Write { case } => Answer::of(&Written { text: case.written()? }),

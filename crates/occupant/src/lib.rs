@@ -30,6 +30,8 @@
 //! [`core`] is the simulator with everything that this page leaves out, [`scenario`] the text of cases, [`measures`] filters and
 //! injury measures of any signal.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod case;
 mod error;
 mod ids;

@@ -56,6 +56,8 @@
 //! | [`marks`] | where tyres leave marks |
 //! | [`path`] | the motion of a point of a vehicle, smooth between the steps |
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod barrier;
 pub mod body;
 pub mod car;

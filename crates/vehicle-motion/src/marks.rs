@@ -57,7 +57,7 @@ fn mark(wheel: usize, run: &[Station], ground: &Ground) -> Mark {
         () if across > along => "yaw",
         () => "skid",
     };
-    let way = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+    let way = |pair: &[[f64; 2]]| libm::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
     let length_m = points_m.windows(2).map(way).sum();
     Mark { wheel, kind, from_s: run[0].time_s, until_s: run[run.len() - 1].time_s, length_m, points_m }
 }

@@ -106,7 +106,7 @@ impl Vehicle {
         let Steering::Follow(follower) = &self.driver.steering else { return };
         let [yaw, _, _] = state.yaw_pitch_roll_rad();
         let velocity = state.velocity_m_s();
-        let speed = velocity.x.hypot(velocity.y);
+        let speed = libm::hypot(velocity.x, velocity.y);
         let wants = follower.wants_rad(state.position_m(), yaw, speed, self.rear_m, self.wheelbase_m);
         memory.wanted.push((time_s, wants));
         let seen_s = time_s - follower.delay_s;

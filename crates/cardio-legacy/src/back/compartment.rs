@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use occupant_core::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
+use occupant_units::trig;
 
 use super::digits::factor;
 use super::points::{Polygon, place_points};
@@ -131,7 +132,7 @@ fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surfac
     let inch = factor(unit_of("VCW"));
     let known = |name: &str| back.digits(&format!("{name}({})", wheel.point)).and_then(|d| d.parse::<f64>().ok());
     let [x, z] = ["XV", "ZV"].map(|name| known(name).unwrap_or(f64::NAN) * inch);
-    let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
+    let (sin, cos) = trig::sin_cos(wheel.tilt_deg.to_radians());
     let tilted = (axis / axis.norm() - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
     let differ = |one: f64, two: f64| (one - two).abs() > SAME_PLACE * (1.0 + one.abs());
     let moved = differ(x - wheel.behind_in * inch, centre_m.x) || differ(z + wheel.below_in * inch, centre_m.z);

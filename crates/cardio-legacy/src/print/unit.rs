@@ -1,6 +1,7 @@
 //! Units and digits of the printout: inches and pounds as in 1970, or SI.
 
 use occupant_scenario::kind::UnitSystem;
+use occupant_units::trig;
 use occupant_units::unit::Shown;
 use occupant_units::unit::Unit as Measured;
 
@@ -98,7 +99,7 @@ impl Unit {
     /// An SI value in this unit with its decimals; with an exponent if it does not fit into a column.
     pub(crate) fn show(self, si: f64) -> String {
         let (value, decimals) = (si / self.shown.si, self.decimals);
-        if value == 0.0 || value.abs() < 1e7 && value.abs() >= 0.5 * 0.1_f64.powi(decimals as i32) {
+        if value == 0.0 || value.abs() < 1e7 && value.abs() >= 0.5 * trig::powi(0.1, decimals as i32) {
             // minus zero is zero
             return self.in_full(si, format!("{:.decimals$}", value + 0.0));
         }

@@ -16,6 +16,7 @@ mod rear;
 mod signals;
 mod special;
 
+use occupant_units::trig;
 use std::sync::LazyLock;
 
 use serde::{Serialize, Serializer};
@@ -89,7 +90,7 @@ impl Options {
 
 /// The dummy nearest in mass.
 fn nearest(dummies: &[Dummy], mass_kg: f64) -> Option<Dummy> {
-    let far = |dummy: &Dummy| (mass_kg / dummy.mass_kg()).ln().abs();
+    let far = |dummy: &Dummy| trig::ln(mass_kg / dummy.mass_kg()).abs();
     dummies.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 

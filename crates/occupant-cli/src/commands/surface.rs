@@ -1,5 +1,6 @@
 //! `occupant surface`.
 
+use occupant_units::trig;
 use std::path::{Path, PathBuf};
 
 use occupant_scenario::kind::{ANGLE, KINDS, LENGTH, MASS, SPEED};
@@ -122,7 +123,7 @@ impl Args {
             mass_kg: self.mass,
             speed_m_s: self.speed.or(fallen),
             speed_error_m_s: self.speed_error,
-            gravity_m_s2: if falls { G * self.angle.cos() } else { 0.0 },
+            gravity_m_s2: if falls { G * trig::cos(self.angle) } else { 0.0 },
             angle_rad: self.angle,
         })
     }

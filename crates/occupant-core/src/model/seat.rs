@@ -8,6 +8,7 @@
 //! legs lie stretched along the cushion.
 
 use nalgebra::{Matrix3, Vector3};
+use occupant_units::trig;
 
 use crate::body::tree::Limb;
 use crate::body::{Body, Segment};
@@ -140,10 +141,7 @@ fn sink(
     if support < 0.1 {
         problems.error_with_hint(
             "seat.cushion",
-            format!(
-                "a cushion whose normal makes {:.0}° with the vertical",
-                occupant_units::trig::acos(support).to_degrees()
-            ),
+            format!("a cushion whose normal makes {:.0}° with the vertical", trig::acos(support).to_degrees()),
             "a cushion that faces up at the start",
             "check the cushion's `inside` point, or give the initial state in report coordinates",
         );
@@ -207,7 +205,7 @@ impl Leg {
 
 /// Length of a link in the X–Z plane of its segment, m, and its angle ahead of the segment's Z axis, rad.
 fn planar(link_m: &Vector3<f64>) -> (f64, f64) {
-    let ahead = occupant_units::trig::atan2(link_m.x, -link_m.z);
+    let ahead = trig::atan2(link_m.x, -link_m.z);
     ((link_m.x * link_m.x + link_m.z * link_m.z).sqrt(), ahead)
 }
 
@@ -259,7 +257,7 @@ fn reach(
         }
         let (hand, target) = from_shoulder(0.0, least);
         // a segment that leans back by γ has its lower end ahead by as much
-        let angle = |v: Vector3<f64>| occupant_units::trig::atan2(v.x, v.z);
+        let angle = |v: Vector3<f64>| trig::atan2(v.x, v.z);
         let lean = angle(target) - angle(hand);
         short_m = short_m.max(target.xz().norm() - hand.xz().norm());
         angles = with(lean, least).into_iter().take(2).chain(angles).collect();
@@ -289,7 +287,7 @@ fn palm(body: &Body, arm: &Limb) -> (Segment, Vector3<f64>) {
 /// Warns where the feet are if they do not reach the heel point.
 fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) {
     let [x, z] = seating.heels_m;
-    if (heel_m.x - x).hypot(heel_m.z - z) < 1e-6 {
+    if trig::hypot(heel_m.x - x, heel_m.z - z) < 1e-6 {
         return;
     }
     let how =
@@ -307,9 +305,9 @@ fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) 
 /// Leg that is too short for the heel point: along the cushion, and from the knees down to the height of the heels if
 /// possible.
 fn short_leg(a: f64, b: f64, hip: Vector3<f64>, cushion: &Vector3<f64>, heel_z: f64) -> [f64; 2] {
-    let thigh = occupant_units::trig::atan2(-cushion.z, cushion.x);
+    let thigh = trig::atan2(-cushion.z, cushion.x);
     let down = (heel_z - (hip - along(thigh) * a).z) / b;
-    let shank = if down.abs() < 1.0 { occupant_units::trig::acos(down) } else { thigh };
+    let shank = if down.abs() < 1.0 { trig::acos(down) } else { thigh };
     [thigh, shank]
 }
 
@@ -353,12 +351,12 @@ fn leg(
     }
     // angle at the hip between thigh and the line to the heel
     let cosine = (a * a + distance * distance - b * b) / (2.0 * a * distance);
-    let opening = occupant_units::trig::acos(cosine.clamp(-1.0, 1.0));
+    let opening = trig::acos(cosine.clamp(-1.0, 1.0));
     // γ of a link that points down along d is atan2(d_x, d_z); raising the knee increases it
-    let line = occupant_units::trig::atan2(to_heel.x, to_heel.z);
+    let line = trig::atan2(to_heel.x, to_heel.z);
     let thigh_lean = line + opening;
     let knee = hip - along(thigh_lean) * a;
     let down = Vector3::new(x, 0.0, z) - knee;
-    let shank_lean = occupant_units::trig::atan2(down.x, down.z);
+    let shank_lean = trig::atan2(down.x, down.z);
     of(thigh_lean, shank_lean)
 }

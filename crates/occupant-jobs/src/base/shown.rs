@@ -2,6 +2,7 @@
 
 use super::Told;
 use super::text_table::{number, without_zeros};
+use occupant_units::trig;
 
 /// SI value of one display unit, and its symbol; empty for a plain number.
 pub fn shown_unit(unit: &Told) -> (f64, &str) {
@@ -39,7 +40,7 @@ pub fn significant(value: f64) -> String {
         0.0 => return "0".to_owned(),
         _ if !(1e-4..1e6).contains(&size) => format!("{value:.3e}"),
         _ => {
-            let decimals = (3.0 - size.log10().floor()).clamp(0.0, 8.0) as usize;
+            let decimals = (3.0 - trig::log10(size).floor()).clamp(0.0, 8.0) as usize;
             format!("{value:.decimals$}")
         }
     };

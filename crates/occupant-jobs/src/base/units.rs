@@ -3,6 +3,7 @@
 use occupant_scenario::Draft;
 use occupant_scenario::kind::UnitSystem;
 use occupant_study::Parameter;
+use occupant_units::trig;
 use occupant_units::unit::{Shown, Unit};
 
 use super::text_table::number;
@@ -66,7 +67,7 @@ impl Units {
     /// otherwise.
     pub fn number(self, value: f64, unit: &str, decimals: usize) -> String {
         let Some((per, _)) = self.instead(unit) else { return number(value, decimals) };
-        let decimals = (decimals as f64 + per.log10().trunc()).max(0.0);
+        let decimals = (decimals as f64 + trig::log10(per).trunc()).max(0.0);
         number(value / per, decimals as usize)
     }
 

@@ -1,6 +1,7 @@
 //! Collisions of a vehicle with obstacles beside the road.
 
 use occupant_scenario::Drives;
+use occupant_units::trig;
 use serde::Serialize;
 use vehicle_motion::V3;
 use vehicle_motion::barrier::{Barrier, End};
@@ -57,8 +58,8 @@ fn met(drives: &Drives, car: usize, barrier: usize) -> Option<Met> {
     let angle = |station: &Station, sign: f64| {
         let velocity = station.velocity_m_s;
         let across = sign * velocity.dot(&away?);
-        let along = (velocity.x.hypot(velocity.y).powi(2) - across * across).max(0.0).sqrt();
-        Some(occupant_units::trig::atan2(across, along))
+        let along = (trig::hypot(velocity.x, velocity.y).powi(2) - across * across).max(0.0).sqrt();
+        Some(trig::atan2(across, along))
     };
     let rail = drives.outcome.rails.iter().find(|rail| rail.barrier == barrier);
     let stroke_m = match &drives.world.barriers[barrier] {
@@ -95,7 +96,7 @@ fn exit(stations: &[Station]) -> &Station {
 /// Direction away from the face of a wall or rail; none for point barriers.
 fn away(barrier: &Barrier) -> Option<V3> {
     match barrier {
-        Barrier::Wall(wall) => Some(V3::new(wall.normal_rad.cos(), wall.normal_rad.sin(), 0.0)),
+        Barrier::Wall(wall) => Some(V3::new(trig::cos(wall.normal_rad), trig::sin(wall.normal_rad), 0.0)),
         Barrier::Rail(rail) => {
             let [from, to] = rail.line_m;
             let left = V3::new(to[1] - from[1], from[0] - to[0], 0.0).normalize();

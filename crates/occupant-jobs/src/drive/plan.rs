@@ -1,6 +1,7 @@
 //! The plan view of a drive: road, barriers, tyre marks, vehicles at chosen times.
 
 use occupant_scenario::Drives;
+use occupant_units::trig;
 use vehicle_motion::barrier::Barrier;
 use vehicle_motion::body::Side;
 use vehicle_motion::run::Station;
@@ -75,7 +76,7 @@ fn crushed(drives: &Drives, number: usize, station: &Station) -> Vec<[f64; 2]> {
     let profiles = &drives.outcome.damage[number].profiles;
     let edge = |i: usize| {
         let [from, to] = [corners[i], corners[(i + 1) % corners.len()]];
-        let parts = ((to[0] - from[0]).hypot(to[1] - from[1]) / PART_M).ceil().max(1.0) as usize;
+        let parts = (trig::hypot(to[0] - from[0], to[1] - from[1]) / PART_M).ceil().max(1.0) as usize;
         (0..parts).map(move |j| [0, 1].map(|k| from[k] + (to[k] - from[k]) * j as f64 / parts as f64))
     };
     let points = (0..corners.len()).flat_map(edge);
@@ -223,7 +224,7 @@ fn contours(svg: &mut Svg, sheet: &Sheet, drives: &Drives) {
         let pieces = triangles.iter().filter_map(|triangle| crossed(triangle, level_m));
         let pieces: Vec<_> = pieces.map(|ends| ends.map(|end| sheet.at(end))).collect();
         pieces.iter().for_each(|[from, to]| svg.segment(*from, *to, "stroke=\"#b3ab92\""));
-        let is_free = |at: &[f64; 2]| labels.iter().all(|own| (own[0] - at[0]).hypot(own[1] - at[1]) > LABEL);
+        let is_free = |at: &[f64; 2]| labels.iter().all(|own| trig::hypot(own[0] - at[0], own[1] - at[1]) > LABEL);
         if let Some(at) = pieces.iter().map(|[from, _]| *from).find(is_free) {
             let style = Text { size: 11.0, fill: "#7a6a3a", ..Text::default() };
             svg.text([at[0] + 6.0, at[1] - 4.0], &format!("{level_m:+.2} m").replace('-', "−"), &style);
@@ -259,7 +260,7 @@ fn barrier(svg: &mut Svg, sheet: &Sheet, drives: &Drives, number: usize) {
     let solid = "fill=\"#8d8d8d\" stroke=\"#333333\" stroke-width=\"1.5\"";
     match &drives.world.barriers[number] {
         Barrier::Wall(wall) => {
-            let (sine, cosine) = wall.normal_rad.sin_cos();
+            let (sine, cosine) = trig::sin_cos(wall.normal_rad);
             let far = 2.0 * (sheet.high[0] - sheet.low[0] + sheet.high[1] - sheet.low[1]);
             let corner = |along: f64, behind: f64| {
                 let [x, y] = wall.point_m;
@@ -274,7 +275,7 @@ fn barrier(svg: &mut Svg, sheet: &Sheet, drives: &Drives, number: usize) {
         Barrier::Block(block) => svg.polygon(&sheet.all(&block.corners_m), solid),
         Barrier::Slider(slider) => {
             let slid = &drives.outcome.slides[number];
-            let (sine, cosine) = slid.direction_rad.sin_cos();
+            let (sine, cosine) = trig::sin_cos(slid.direction_rad);
             let moved: Vec<[f64; 2]> =
                 slider.corners_m.iter().map(|[x, y]| [x + slid.most_m * cosine, y + slid.most_m * sine]).collect();
             svg.polygon(&sheet.all(&slider.corners_m), "fill=\"#d9c78a\" stroke=\"#333333\"");
@@ -308,7 +309,8 @@ fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven, label
         let centre = place(station, 0.0, 0.0);
         let is_last = i + 1 == times_s.len();
         let is_hit = driven.collisions.iter().any(|own| own.from_s == *time_s);
-        let is_near = drawn.is_some_and(|[x, y]| (centre[0] - x).hypot(centre[1] - y) < 0.25 * own.car.body.length_m);
+        let is_near =
+            drawn.is_some_and(|[x, y]| trig::hypot(centre[0] - x, centre[1] - y) < 0.25 * own.car.body.length_m);
         if is_near && !is_last && !is_hit {
             continue;
         }

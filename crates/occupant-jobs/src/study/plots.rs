@@ -3,6 +3,7 @@
 use super::{Finding, Input, Response};
 use crate::base::shown::{shown_unit, significant};
 use occupant_pictures::plot::{Axis, Curve, Figure, Style, inline};
+use occupant_units::trig;
 
 /// Size of a plot without its legend.
 const SIZE: [f64; 2] = [380.0, 290.0];
@@ -123,7 +124,7 @@ fn names(of: &Finding<'_>) -> Vec<String> {
 /// Position of a value on the axis of a parameter.
 fn place(input: &Input, value: f64) -> f64 {
     let value = if input.is_number() { value / shown_unit(&input.unit).0 } else { value };
-    if input.by_ratios { value.log10() } else { value }
+    if input.by_ratios { trig::log10(value) } else { value }
 }
 
 fn axis_of(input: &Input) -> Axis {

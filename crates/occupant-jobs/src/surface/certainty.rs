@@ -1,6 +1,7 @@
 //! Intervals: the record is made again many times, with its noise in another order and another speed within its error, and
 //! the fit is repeated. The order is kept within blocks as long as the noise remembers.
 
+use occupant_units::trig;
 use std::sync::Arc;
 
 use super::Impactor;
@@ -37,7 +38,7 @@ pub(super) fn of(record: &Record, impactor: &Impactor, choices: &[Choice], law: 
         let mean = all.iter().sum::<f64>() / all.len() as f64;
         let variance = all.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (all.len().max(2) - 1) as f64;
         let other = rivals.iter().filter_map(others).map(|x| (x - value).abs()).fold(0.0, f64::max);
-        let half = (WIDE * variance.sqrt()).hypot(other);
+        let half = trig::hypot(WIDE * variance.sqrt(), other);
         [value - half, value + half]
     };
     let hidden = hidden(law, contact);
@@ -45,7 +46,7 @@ pub(super) fn of(record: &Record, impactor: &Impactor, choices: &[Choice], law: 
         let [from, to] = around(point[1], &|made| made.force_n.get(i).copied(), &|rival| Some(rival.loading(point[0])));
         let shifted = [hidden, -hidden].map(|by| (law.loading((point[0] + by).max(0.0)) - point[1]).abs());
         let hidden = if i == 0 { 0.0 } else { shifted[0].max(shifted[1]) };
-        let half = (0.5 * (to - from)).hypot(hidden);
+        let half = trig::hypot(0.5 * (to - from), hidden);
         [(point[1] - half).max(0.0), point[1] + half]
     };
     let value = |back: Back| match back {

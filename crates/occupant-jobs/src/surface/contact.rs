@@ -1,5 +1,6 @@
 //! Contact time and penetration of the impactor.
 
+use occupant_units::trig;
 use std::sync::Arc;
 
 use super::depth::{greatest, integrated, measured};
@@ -79,7 +80,7 @@ impl Contact {
         let from = series.time_s.partition_point(|t| *t <= start_s);
         let time_s: Vec<f64> = std::iter::once(start_s).chain(series.time_s[from..].iter().copied()).collect();
         let force_n: Vec<f64> = std::iter::once(0.0).chain(series.force_n[from..].iter().copied()).collect();
-        let speed_m_s = impactor.speed_m_s.map(|speed| speed * impactor.angle_rad.cos());
+        let speed_m_s = impactor.speed_m_s.map(|speed| speed * trig::cos(impactor.angle_rad));
         let depth_m = match &series.depth_m {
             Some(depth) => measured(&series.time_s, depth, from, start_s),
             None => integrated(&time_s, &force_n, impactor, speed_m_s.unwrap_or_default()),
@@ -163,7 +164,7 @@ impl Contact {
         let zero = median(&own[..from.saturating_sub(1)]).unwrap_or(0.0);
         let rows = own[from..].iter().zip(&self.force_n[1..]).map(|(t, n)| [t - zero, *n]);
         let sign = rows.clone().map(|row| row[0]).sum::<f64>().signum();
-        let mut slip = speed * impactor.angle_rad.sin();
+        let mut slip = speed * trig::sin(impactor.angle_rad);
         let (mut products, mut squares, mut peak, mut before, mut time) = (0.0, 0.0, 0.0_f64, 0.0, self.time_s[0]);
         for ([tangential, normal], t) in rows.zip(&self.time_s[1..]) {
             let tangential = sign * tangential;
@@ -172,7 +173,7 @@ impl Contact {
             if slip < DEFAULT_FRICTION_SPEED_M_S {
                 break;
             }
-            let full = normal * slip / slip.hypot(DEFAULT_FRICTION_SPEED_M_S);
+            let full = normal * slip / trig::hypot(slip, DEFAULT_FRICTION_SPEED_M_S);
             (products, squares, peak) = (products + tangential * full, squares + full * full, peak.max(normal));
         }
         if peak < 0.5 * self.peak_n() || squares <= 0.0 {

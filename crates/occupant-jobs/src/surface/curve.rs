@@ -4,6 +4,7 @@ use super::contact::Contact;
 use super::law::{Law, back};
 use super::{Impactor, refuse};
 use crate::base::Failure;
+use occupant_units::trig;
 
 /// Largest number of lines of a curve.
 const MOST: usize = 12;
@@ -189,7 +190,7 @@ fn worth(contact: &Contact, shape: &Shape, from: usize) -> f64 {
     let before = contact.series.time_s[from..].iter().take_while(|t| **t <= contact.time_s[0]).count();
     let n = (before + contact.turn) as f64;
     let finest = n * (FINEST * contact.peak_n()).powi(2);
-    n * (cost(contact, shape, from).max(finest) / n).ln() + 2.0 * shape.len() as f64 * n.ln()
+    n * trig::ln(cost(contact, shape, from).max(finest) / n) + 2.0 * shape.len() as f64 * trig::ln(n)
 }
 
 /// Divides lines while the criterion improves, and once more.

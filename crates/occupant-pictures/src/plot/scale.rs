@@ -1,5 +1,6 @@
 //! Round ticks for a range.
 
+use occupant_units::trig;
 use placed_text::trimmed;
 
 /// Range of an axis, its ticks, and their format.
@@ -60,7 +61,7 @@ impl Scale {
         let [low, high] = if high - low > 1e-9 { [low, high] } else { [low - 0.1, high + 0.1] };
         let times: &[f64] = if high - low > 2.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
         let decades = (low.floor() as i32..=high.ceil() as i32).take(100);
-        let all = decades.flat_map(|decade| times.iter().map(move |times| f64::from(decade) + times.log10()));
+        let all = decades.flat_map(|decade| times.iter().map(move |times| f64::from(decade) + trig::log10(*times)));
         let ticks = all.filter(|tick| (low - 1e-9..=high + 1e-9).contains(tick)).collect();
         Scale { range: [low, high], ticks, exponent: 0, decimals: 0, words: Vec::new(), is_of_powers: true }
     }
@@ -76,10 +77,10 @@ impl Scale {
         let ticks: Vec<f64> = (0..count).map(|i| (first + i as f64) * step).collect();
         let greatest = ticks.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
         let exponent = match greatest {
-            g if g >= 1e5 || (g < 1e-2 && g > 0.0) => 3 * (g.log10() / 3.0).floor() as i32,
+            g if g >= 1e5 || (g < 1e-2 && g > 0.0) => 3 * (trig::log10(g) / 3.0).floor() as i32,
             _ => 0,
         };
-        let digits = (step.log10() - f64::from(exponent) + 1e-9).floor();
+        let digits = (trig::log10(step) - f64::from(exponent) + 1e-9).floor();
         Scale {
             range: [ticks.first().copied().unwrap_or(0.0), ticks.last().copied().unwrap_or(1.0)],
             decimals: (-digits).clamp(0.0, 12.0) as usize,
@@ -97,12 +98,12 @@ impl Scale {
             return self.words.get(tick as usize).cloned().unwrap_or_default();
         }
         if self.is_of_powers {
-            let value = 10_f64.powf(tick);
+            let value = trig::pow(10_f64, tick);
             return if (1e-3..1e5).contains(&value) { trimmed(value, 4) } else { format!("{value:.0e}") };
         }
         // in two factors: the power alone may be beyond what a double holds
         let half = self.exponent / 2;
-        let value = tick * 10_f64.powi(-half) * 10_f64.powi(half - self.exponent);
+        let value = tick * trig::powi(10.0, -half) * trig::powi(10.0, half - self.exponent);
         let text = format!("{value:.*}", self.decimals);
         let is_zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
         // a true minus sign is as wide as a plus
@@ -141,7 +142,7 @@ fn opened(low: f64, high: f64) -> [f64; 2] {
 
 /// The least of 1, 2, 5 times a power of ten that is at least `step`.
 fn round_step(step: f64) -> f64 {
-    let power = 10_f64.powi(step.log10().floor() as i32);
+    let power = trig::powi(10.0, trig::log10(step).floor() as i32);
     let times = step / power;
     let round = [1.0, 2.0, 5.0, 10.0].into_iter().find(|r| times <= r + 1e-9);
     round.unwrap_or(10.0) * power

@@ -1,6 +1,7 @@
 //! Distances in a picture: lines with an arrow at both ends, and labels that keep clear of each other.
 
 use nalgebra::Point3;
+use occupant_units::trig;
 
 use super::panel::{Pen, arrow};
 use super::projection::View;
@@ -29,7 +30,7 @@ pub fn draw(svg: &mut Svg, pen: &Pen<'_>, view: View, corner: [f64; 2], corner_m
             let flat = view.place(&end);
             [0, 1].map(|i| corner[i] + pen.scale * (flat[i] - corner_m[i]))
         });
-        let seen = (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1]);
+        let seen = trig::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
         let is_side_on = view == own_view(&own.ends_m);
         if !is_side_on || seen < SEEN * pen.scale * long_m || seen < 2.0 {
             continue;

@@ -1,5 +1,6 @@
 //! Outlines: the projection of an ellipsoid is an ellipse, that of a convex hull the hull of its parts' projections.
 
+use occupant_units::trig;
 use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Matrix2x3, Matrix3, SMatrix};
@@ -27,7 +28,7 @@ fn ellipse(lump: &Lump, pose: &Isometry3<f64>, view: View) -> impl Iterator<Item
     let columns = [0, 1, 2].map(|i| view.turn(axes.column(i).into_owned()).xy());
     let b: Matrix2x3<f64> = SMatrix::from_columns(&columns);
     (0..POINTS).map(move |i| {
-        let (sin, cos) = (TAU * i as f64 / POINTS as f64).sin_cos();
+        let (sin, cos) = trig::sin_cos(TAU * i as f64 / POINTS as f64);
         let along = b.transpose() * nalgebra::Vector2::new(cos, sin);
         let edge = b * along / along.norm().max(1e-12);
         [centre[0] + edge.x, centre[1] + edge.y]

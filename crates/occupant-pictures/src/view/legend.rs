@@ -5,6 +5,7 @@ use super::panel::{BAG, CONTACT, Pen, SLACK, SURFACE, TAUT, arrow};
 use super::projection::View;
 use crate::font::{self, Weight};
 use crate::svg::{Anchor, Svg, Text};
+use occupant_units::trig;
 
 const SMALL: Text<'_> =
     Text { size: 11.0, fill: "#333333", anchor: Anchor::Start, weight: Weight::Regular, turn_deg: 0.0, halo: None };
@@ -103,7 +104,7 @@ impl Row<'_> {
 
 /// The largest of 1, 2, 5 times a power of ten that is at most `most`.
 fn round_length(most: f64) -> f64 {
-    let power = 10.0_f64.powf(most.log10().floor());
+    let power = trig::pow(10.0_f64, trig::log10(most).floor());
     let steps = [5.0, 2.0, 1.0].map(|s| s * power);
     steps.into_iter().find(|s| *s <= most).unwrap_or(power)
 }

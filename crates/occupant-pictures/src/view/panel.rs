@@ -4,6 +4,7 @@
 //! hidden: bags and lines of force elements, surfaces before the body (as dashed outlines), contacts.
 
 use nalgebra::Point3;
+use occupant_units::trig;
 
 use super::Strip;
 use super::hull::outline;
@@ -120,7 +121,7 @@ fn farthest(points: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
     let mut most = -1.0;
     for (i, a) in points.iter().enumerate() {
         for b in &points[i + 1..] {
-            let distance = (a[0] - b[0]).hypot(a[1] - b[1]);
+            let distance = trig::hypot(a[0] - b[0], a[1] - b[1]);
             if distance > most {
                 (most, found) = (distance, (*a, *b));
             }
@@ -198,7 +199,7 @@ fn draw_contacts(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot)
 /// An arrow; left out if shorter than its head.
 pub fn arrow(svg: &mut Svg, from: [f64; 2], to: [f64; 2], color: &str) {
     let along = [to[0] - from[0], to[1] - from[1]];
-    let length = along[0].hypot(along[1]);
+    let length = trig::hypot(along[0], along[1]);
     let head = 6.0_f64.min(0.5 * length);
     if length < 3.0 {
         return;

@@ -12,6 +12,7 @@
 use crate::sections::{ChestChoice, SidesChoice, above};
 use occupant_core::body::people::Person;
 use occupant_core::body::{Body, Segment, shape};
+use occupant_units::trig;
 
 /// Height of the sternum's plate above the upper torso's lower end, as a fraction of its length.
 const HEIGHT: f64 = 0.62;
@@ -99,7 +100,7 @@ impl Scale {
     const NONE: Scale = Scale { mass: 1.0, force: 1.0, depth: 1.0 };
 
     fn of(mass: f64, depth: f64) -> Self {
-        let stiffness = depth.powf(BY_DEPTH);
+        let stiffness = trig::pow(depth, BY_DEPTH);
         Scale { mass, force: (mass * stiffness).sqrt(), depth: (mass / stiffness).sqrt() }
     }
 }

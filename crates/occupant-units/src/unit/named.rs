@@ -2,6 +2,7 @@
 //!
 //! `lb` is the pound of mass, `lbf` the pound of force; `g` is standard gravity, and there is no gram.
 
+use crate::trig;
 use std::f64::consts::PI;
 
 use super::Dimension;
@@ -119,7 +120,8 @@ pub(super) fn usual_writing(name: &str) -> Option<&'static str> {
 impl Scale {
     /// The power; none if its exponents are implausible.
     pub(super) fn power(self, n: i32) -> Option<Scale> {
-        let raised = Scale { dimension: self.dimension.map(|exponent| exponent * n), factor: self.factor.powi(n) };
+        let raised =
+            Scale { dimension: self.dimension.map(|exponent| exponent * n), factor: trig::powi(self.factor, n) };
         raised.is_sensible().then_some(raised)
     }
 

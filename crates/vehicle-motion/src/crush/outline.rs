@@ -17,7 +17,7 @@ impl Edge {
     /// From one corner to the next, clockwise from above.
     fn between(from: [f64; 2], to: [f64; 2], face: usize) -> Self {
         let way = [to[0] - from[0], to[1] - from[1]];
-        let length = way[0].hypot(way[1]);
+        let length = libm::hypot(way[0], way[1]);
         Edge { corner_m: from, normal: [way[1] / length, -way[0] / length], face }
     }
 
@@ -120,7 +120,7 @@ impl Outline {
         let n = corners_m.len();
         let edges: Vec<Edge> = (0..n).map(|i| Edge::between(corners_m[i], corners_m[(i + 1) % n], i)).collect();
         let faces = edges.iter().map(|edge| Face { normal: edge.normal, law: 0, hard: Vec::new() }).collect();
-        let reach_m = corners_m.iter().map(|c| c[0].hypot(c[1])).fold(0.0, f64::max);
+        let reach_m = corners_m.iter().map(|c| libm::hypot(c[0], c[1])).fold(0.0, f64::max);
         Outline { edges, faces, band_m, reach_m }
     }
 
@@ -157,7 +157,7 @@ impl Outline {
         for (i, edge) in self.edges.iter().enumerate() {
             let next = self.edges[(i + 1) % self.edges.len()].corner_m;
             let way = [next[0] - edge.corner_m[0], next[1] - edge.corner_m[1]];
-            let length_m = way[0].hypot(way[1]);
+            let length_m = libm::hypot(way[0], way[1]);
             let count = (length_m / spacing_m).round().max(1.0) as usize;
             for (face, normal) in self.pushed(edge) {
                 let across = normal[0] * edge.normal[0] + normal[1] * edge.normal[1];
@@ -212,7 +212,7 @@ pub(crate) fn of_body(body: &Body, height_m: f64) -> (Outline, Vec<Node>, Vec<La
         faces[face].hard.push((hard.span_m, laws.len()));
         laws.push(law(hard.side, hard.factor));
     }
-    let reach_m = ahead.max(-behind).hypot(half);
+    let reach_m = libm::hypot(ahead.max(-behind), half);
     let outline = Outline { edges, faces, band_m: [height_m - band_m[1], height_m - band_m[0]], reach_m };
     let nodes = nodes_of(&outline, crush, height_m);
     (outline, nodes, laws)

@@ -108,7 +108,7 @@ impl Section {
             let share = (to_point[0] * way[0] + to_point[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
             let share = share.clamp(0.0, 1.0);
             let off = [to_point[0] - share * way[0], to_point[1] - share * way[1]];
-            let far = off[0].hypot(off[1]);
+            let far = libm::hypot(off[0], off[1]);
             if far < least {
                 (least, away) = (far, off);
             }
@@ -134,7 +134,7 @@ impl Section {
             let up = [top[0] - foot[0], top[1] - foot[1]];
             let off = [point[0] - top[0], point[1] - top[1]];
             let (depth_m, normal) = if off[0] * up[0] + off[1] * up[1] > 0.0 {
-                let far_m = off[0].hypot(off[1]);
+                let far_m = libm::hypot(off[0], off[1]);
                 (radius_m - far_m, (V3::y() * off[0] + across * off[1]) / far_m.max(1e-12))
             } else {
                 (radius_m - normal.dot(&(centre_m - self.point_m(piece))), normal)

@@ -1,6 +1,7 @@
 //! Variation of segment lengths among people of one sex, stature and mass: the residuals of the regressions.
 
 use super::{CT, F, H, LA, LL, LT, MEASURES, N, PARTS, Person, Sex, UA, UL, UT};
+use occupant_units::trig;
 
 /// Standard errors of the regressions for the length of each part, mm, of men and of women: for a difference of two
 /// heights both, as if the residuals were independent. The survey's own differences are not published; 0 where a length
@@ -47,7 +48,7 @@ impl Person {
         let side = ["left_", "right_"].iter().find_map(|side| segment.strip_prefix(side));
         let part = NAMES.iter().find(|(name, _)| *name == side.unwrap_or(segment))?.1;
         let [first, second] = ERRORS_MM[part][usize::from(self.sex == Sex::Female)];
-        Some(QUANTILE_95 * first.hypot(second) / self.measure(&MEASURES[part][2]))
+        Some(QUANTILE_95 * trig::hypot(first, second) / self.measure(&MEASURES[part][2]))
     }
 }
 

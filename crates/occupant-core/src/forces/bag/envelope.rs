@@ -24,6 +24,7 @@ use crate::forces::element::Instant;
 use crate::forces::sphere::Use;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
+use occupant_units::trig;
 
 /// X beyond which φ is no longer 1 − X.
 const CROWDED: f64 = 0.8;
@@ -118,7 +119,7 @@ impl EnvelopeLaw<f64> {
             shape: ShapeLaw::new(bag),
             volume: bag.volume_m3,
             area: size(&bag.shape)[1],
-            thrown: bag.cover_kg / (3.0 * bag.volume_m3 * (1.0 - FOLDED.cbrt())),
+            thrown: bag.cover_kg / (3.0 * bag.volume_m3 * (1.0 - trig::cbrt(FOLDED))),
             spheres: bag.spheres.iter().take(MOST_SPHERES).copied().collect(),
         }
     }

@@ -1,6 +1,7 @@
 //! The belt as a line that can be drawn: anchor, tangent point, round the sphere, tangent point, anchor.
 
 use nalgebra::{Point3, Vector3};
+use occupant_units::trig;
 
 use super::Belt;
 use super::law::BeltAction;
@@ -26,7 +27,7 @@ pub(super) fn course_m(
         let steps = (action.wrap / ARC_STEP_RAD).ceil().max(1.0);
         for i in 0..=steps as usize {
             let angle = action.wrap * i as f64 / steps;
-            points.push(centre_m + (out * angle.cos() + on * angle.sin()) * radius_m);
+            points.push(centre_m + (out * trig::cos(angle) + on * trig::sin(angle)) * radius_m);
         }
     }
     points.push(second);

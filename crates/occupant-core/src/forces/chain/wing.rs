@@ -2,6 +2,8 @@
 //!
 //! All numbers are guesses: we had no drawing of a pelvis.
 
+use occupant_units::trig;
+
 /// Friction of webbing across a wing.
 pub const ACROSS: f64 = 0.25;
 /// Drag of webbing across a wing, N·s/m.
@@ -16,7 +18,7 @@ pub const ANGLES_RAD: [f64; 3] = [0.0, 0.44, 1.13];
 /// abdomen. The belt pulls back and `below_rad` down, relative to the pelvis, and across from wing to wing with the
 /// same tension.
 pub fn across(angle_rad: f64, below_rad: f64) -> f64 {
-    let (sine, cosine) = occupant_units::trig::sin_cos(angle_rad - below_rad);
+    let (sine, cosine) = trig::sin_cos(angle_rad - below_rad);
     sine / (cosine * cosine + 1.0).sqrt()
 }
 
@@ -38,13 +40,13 @@ impl Slider {
     /// Advances by `time_s` under the belt's total pull forward and up, in axes of the pelvis, N, on wings of a radius,
     /// m. Whether it has slid off.
     pub fn go(&mut self, [ahead, up]: [f64; 2], radius_m: f64, time_s: f64) -> bool {
-        let force = ahead.hypot(up);
+        let force = trig::hypot(ahead, up);
         if force < LEAST_N {
             return self.is_off;
         }
-        let below_rad = occupant_units::trig::atan2(-up, -ahead);
+        let below_rad = trig::atan2(-up, -ahead);
         let tangent = across(self.angle_rad, below_rad);
-        let (_, cosine) = occupant_units::trig::sin_cos(self.angle_rad - below_rad);
+        let (_, cosine) = trig::sin_cos(self.angle_rad - below_rad);
         let held = 0.5 * force * (cosine * cosine + 1.0).sqrt();
         let slips = (tangent.abs() - ACROSS).max(0.0) * held / DRAG_N_S_M;
         // no farther at once than to where friction holds it

@@ -3,6 +3,7 @@
 //! Report: Eqs 84, 86, 87 (N̂ and G). Our decision: coplanar faces of one frame that share an edge act as one face.
 
 use nalgebra::{Point3, Vector3};
+use occupant_units::trig;
 
 use crate::forces::contact::near::{Bounds, NearPairs, near_pairs};
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
@@ -217,7 +218,7 @@ fn polygon_plane(corners: &[Point3<f64>], path: &str, problems: &mut Problems) -
     // turning one way at every corner is not enough: a star does so too, but turns by more than once round
     let turn = |i: usize| {
         let (p, q, r) = (corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
-        (q - p).cross(&(r - q)).dot(&normal).atan2((q - p).dot(&(r - q)))
+        trig::atan2((q - p).cross(&(r - q)).dot(&normal), (q - p).dot(&(r - q)))
     };
     if (0..n).map(turn).sum::<f64>() > 1.5 * std::f64::consts::TAU {
         problems.error_with_hint(

@@ -2,6 +2,7 @@
 
 use crate::body::{Body, JointKind, Place, SegmentProperties};
 use crate::motion::layout::{MOST_HINGES, MOST_SEGMENTS};
+use occupant_units::trig;
 use placed_text::{Problems, number};
 
 /// Largest distance of a sphere from even a short segment, and of mass from its centre, m.
@@ -71,7 +72,7 @@ fn check_spheres(body: &Body, problems: &mut Problems) {
         let centre = sphere.centre_from_lower_end_m;
         let z = centre.z;
         let reach = centre.coords.norm();
-        let beside = centre.x.hypot(centre.y);
+        let beside = trig::hypot(centre.x, centre.y);
         let widest = length.max(WIDEST_M);
         if !reach.is_finite() {
             problems.error(&path, "a centre that is not a finite number", "finite coordinates");

@@ -10,6 +10,7 @@
 //! for any number of bounces. The bracket is 1 at θ = 0 and has its maximum, √(1 + μ²), at tan θ = μ: a speed has a
 //! minimum and a maximum distance, and a distance has a minimum and a maximum speed.
 
+use occupant_units::trig;
 use serde::Serialize;
 
 /// Searle's bounds of a throw.
@@ -66,7 +67,7 @@ impl Searle {
 impl Way {
     /// The least μ with s = v² (cos θ + μ sin θ)² / (2 μ g) + μ H.
     fn drag_factor(&self) -> Option<f64> {
-        let (sin, cos) = self.angle_rad.sin_cos();
+        let (sin, cos) = trig::sin_cos(self.angle_rad);
         let flat_m = self.speed_m_s * self.speed_m_s / (2.0 * self.gravity_m_s2);
         // (v²/2g sin²θ + H) μ² + (v²/g sin θ cos θ − s) μ + v²/2g cos²θ = 0
         let [a, b, c] =

@@ -17,6 +17,7 @@ use crate::motion::frame::MOST_FRAMES;
 use crate::motion::vector::V3;
 use crate::results::peaks::Peaks;
 use crate::results::sample::{Contact, Sample};
+use occupant_units::trig;
 
 /// Overlap below which a sphere has only grazed an edge, and distance of spheres below which a limb has not passed
 /// between them, m.
@@ -469,7 +470,8 @@ fn centre(sample: &Sample<'_>, frame: usize, sphere: usize) -> V3<f64> {
 fn overlap(contacts: &ContactSystem<f64>, i: usize, centre: V3<f64>, radius_m: f64) -> (f64, usize) {
     let behind_m = contacts.planes[i].depth(centre) - radius_m;
     let pair = &contacts.pairs[i];
-    let parts = pair.parts.iter().map(|part| (radius_m - behind_m.hypot(pair.beside(part, centre)), part.surface));
+    let parts =
+        pair.parts.iter().map(|part| (radius_m - trig::hypot(behind_m, pair.beside(part, centre)), part.surface));
     parts.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, 0))
 }
 

@@ -7,6 +7,7 @@
 //! velocities are in space.
 
 use nalgebra::Vector3;
+use occupant_units::trig;
 use serde::Serialize;
 
 use super::searle::{Searle, Way};
@@ -136,7 +137,7 @@ impl Moment {
 
     /// Angle of the velocity above the horizontal.
     fn rise_deg(&self) -> f64 {
-        self.velocity_m_s.z.atan2(self.velocity_m_s.xy().norm()).to_degrees()
+        trig::atan2(self.velocity_m_s.z, self.velocity_m_s.xy().norm()).to_degrees()
     }
 
     /// Earlier time, on the same straight line.

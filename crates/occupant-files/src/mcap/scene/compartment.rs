@@ -1,5 +1,6 @@
 //! The surfaces and the sides of the solids, as translucent plates with edges.
 
+use occupant_units::trig;
 use std::f64::consts::TAU;
 
 use nalgebra::Point3;
@@ -86,7 +87,7 @@ pub fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
         Outline::Disc { centre_m, radius_m, .. } => {
             let corner = |i| {
                 let angle = TAU * i as f64 / DISC_CORNERS as f64;
-                centre_m + (u * angle.cos() + v * angle.sin()) * *radius_m
+                centre_m + (u * trig::cos(angle) + v * trig::sin(angle)) * *radius_m
             };
             (0..DISC_CORNERS).map(corner).collect()
         }

@@ -2,6 +2,7 @@
 
 use crash_measures::signal::{STANDARD_GRAVITY_MPS2 as G, resolution, rounding_noise, smooth, usual_interval};
 use occupant_core::vehicle::{Interpolation, Station, VehiclePath};
+use occupant_units::trig;
 use placed_text::number;
 
 use super::super::motion::{Column, Motion, MotionKind};
@@ -112,10 +113,10 @@ pub(super) fn turned(motion: &Motion) -> Option<String> {
     let [x, y, yaw] = ["x", "y", "yaw"].map(|name| motion.si(name));
     let (x, y, yaw) = (x?, y?, yaw?);
     let last = x.len() - 1;
-    let course = |i: usize, j: usize| (y[j] - y[i]).atan2(x[j] - x[i]);
+    let course = |i: usize, j: usize| trig::atan2(y[j] - y[i], x[j] - x[i]);
     let part = (last / 10).max(1);
     let (began, ended) = (course(0, part), course(last - part, last));
-    let moved = |i: usize, j: usize| (x[j] - x[i]).hypot(y[j] - y[i]) / (motion.time_s[j] - motion.time_s[i]);
+    let moved = |i: usize, j: usize| trig::hypot(x[j] - x[i], y[j] - y[i]) / (motion.time_s[j] - motion.time_s[i]);
     let (turn, own) = (ended - began, yaw[last] - yaw[0]);
     let least = 3_f64.to_radians();
     let clear = turn.abs() > least
@@ -132,11 +133,11 @@ pub(super) fn across(motion: &Motion) -> Option<String> {
     let (x, y) = (motion.si("x")?, motion.si("y")?);
     let yaw = motion.si("yaw");
     let part = (x.len() / 10).max(1);
-    let moved_m = (x[part] - x[0]).hypot(y[part] - y[0]);
+    let moved_m = trig::hypot(x[part] - x[0], y[part] - y[0]);
     let speed_m_s = moved_m / (motion.time_s[part] - motion.time_s[0]);
     let heading = yaw.as_ref().map_or(0.0, |yaw| 0.5 * (yaw[0] + yaw[part]));
-    let turn = (y[part] - y[0]).atan2(x[part] - x[0]) - heading;
-    let beside = (turn.sin().atan2(turn.cos())).to_degrees();
+    let turn = trig::atan2(y[part] - y[0], x[part] - x[0]) - heading;
+    let beside = trig::atan2(trig::sin(turn), trig::cos(turn)).to_degrees();
     (speed_m_s > ACROSS.0 && beside.abs() > ACROSS.1).then(|| {
         let goes = format!(
             "at the start the vehicle moves at {} km/h, {} deg off its heading",

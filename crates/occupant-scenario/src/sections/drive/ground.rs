@@ -1,5 +1,6 @@
 //! `[drive.ground]`: its keys, converted to the ground.
 
+use occupant_units::trig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vehicle_motion::ground::{Curb, Ground, Zone};
@@ -203,7 +204,7 @@ fn warn_of_steep(b: &mut Builder, ditch: &DitchSection) {
     let slopes = [("foreslope", Some(&ditch.foreslope)), ("backslope", ditch.backslope.as_ref())];
     for (key, slope) in slopes.into_iter().filter_map(|(key, slope)| Some((key, slope?.si()))) {
         if slope < STEEPEST {
-            let degrees = (1.0 / slope).atan().to_degrees();
+            let degrees = trig::atan(1.0 / slope).to_degrees();
             let found = format!("{slope} m of length for 1 m of height, a slope of {degrees:.0}°");
             let hint = format!("horizontal length per unit of height: 1V:4H and 25 % are both `{key} = 4`");
             let expected = format!("{STEEPEST} or more");

@@ -1,5 +1,6 @@
 //! Occupants of driven vehicles: their mass, and whether the crush reaches them.
 
+use occupant_units::trig;
 use vehicle_motion::V3;
 use vehicle_motion::barrier::Barrier;
 use vehicle_motion::body::Side;
@@ -161,7 +162,7 @@ impl Solved {
             let Partner::Barrier(number) = contact.partner else { continue };
             let Barrier::Rail(rail) = &self.world.barriers[number] else { continue };
             let (own, [from, to]) = (&self.vehicles[contact.car], rail.line_m);
-            let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
+            let length_m = trig::hypot(to[0] - from[0], to[1] - from[1]);
             let body = &own.car.body;
             let (ahead_m, behind_m) = (body.front_m, body.front_m - body.length_m);
             let share = |station: &Station, x: f64, y: f64| {

@@ -1,5 +1,6 @@
 //! The road, tyre marks and the outside of driven vehicles, as polygons to draw.
 
+use occupant_units::trig;
 use std::f64::consts::TAU;
 
 use nalgebra::{Point3, Vector3};
@@ -140,7 +141,7 @@ fn strips(drives: &Drives, vehicle: usize) -> Polygons {
     for mark in marks(&drives.outcome.rides[vehicle], &drives.world.ground) {
         for pair in thinned(&mark.points_m).windows(2) {
             let way = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-            let length_m = way[0].hypot(way[1]);
+            let length_m = trig::hypot(way[0], way[1]);
             if length_m > 0.0 {
                 let aside = [-way[1], way[0]].map(|x| 0.5 * TREAD_M * x / length_m);
                 let at =
@@ -156,7 +157,7 @@ fn strips(drives: &Drives, vehicle: usize) -> Polygons {
 fn thinned(points_m: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     for (i, point) in points_m.iter().enumerate() {
-        let is_far = |last: &[f64; 2]| (point[0] - last[0]).hypot(point[1] - last[1]) >= PART_M;
+        let is_far = |last: &[f64; 2]| trig::hypot(point[0] - last[0], point[1] - last[1]) >= PART_M;
         if i + 1 == points_m.len() || kept.last().is_none_or(is_far) {
             kept.push(*point);
         }
@@ -180,7 +181,7 @@ fn outside(vehicle: &DrivenVehicle) -> Polygons {
     for axle in [&car.front, &car.rear] {
         for side in [-0.5, 0.5] {
             let rim = (0..ROUND).map(|i| {
-                let (sine, cosine) = (TAU * i as f64 / ROUND as f64).sin_cos();
+                let (sine, cosine) = trig::sin_cos(TAU * i as f64 / ROUND as f64);
                 let radius_m = car.tyre.radius_m;
                 at(axle.ahead_m + radius_m * cosine, side * axle.track_m, radius_m * (1.0 + sine))
             });

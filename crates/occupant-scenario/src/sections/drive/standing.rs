@@ -1,5 +1,6 @@
 //! Barriers as polygons to draw.
 
+use occupant_units::trig;
 use std::f64::consts::TAU;
 
 use nalgebra::Point3;
@@ -48,7 +49,7 @@ pub fn moving_rails(drives: &Drives) -> Vec<(usize, Vec<(f64, Polygons)>)> {
 /// Corners of the outline of a pole.
 fn round([x, y]: [f64; 2], radius_m: f64) -> Vec<[f64; 2]> {
     let corner = |i: usize| {
-        let (sine, cosine) = (TAU * i as f64 / ROUND as f64).sin_cos();
+        let (sine, cosine) = trig::sin_cos(TAU * i as f64 / ROUND as f64);
         [x + radius_m * cosine, y + radius_m * sine]
     };
     (0..ROUND).map(corner).collect()
@@ -56,7 +57,7 @@ fn round([x, y]: [f64; 2], radius_m: f64) -> Vec<[f64; 2]> {
 
 /// The part of a wall's face beside the drive.
 fn face(drives: &Drives, wall: &Wall) -> Vec<Point3<f64>> {
-    let (sine, cosine) = wall.normal_rad.sin_cos();
+    let (sine, cosine) = trig::sin_cos(wall.normal_rad);
     let along = |x: f64, y: f64| (y - wall.point_m[1]) * cosine - (x - wall.point_m[0]) * sine;
     let stations = drives.outcome.rides.iter().flat_map(|ride| ride.stations());
     let places = stations.map(|station| along(station.position_m.x, station.position_m.y));
@@ -86,9 +87,9 @@ fn of_rail(drives: &Drives, rail: &Rail, line: &[[f64; 2]]) -> Polygons {
     let strip = |pair: &[[f64; 2]]| vec![at(pair[0], low), at(pair[1], low), at(pair[1], high), at(pair[0], high)];
     let [from, to] = rail.line_m;
     let way = [to[0] - from[0], to[1] - from[1]];
-    let posts = (way[0].hypot(way[1]) / rail.spacing_m).floor() as usize;
+    let posts = (trig::hypot(way[0], way[1]) / rail.spacing_m).floor() as usize;
     let post = |i: usize| {
-        let share = i as f64 * rail.spacing_m / way[0].hypot(way[1]);
+        let share = i as f64 * rail.spacing_m / trig::hypot(way[0], way[1]);
         let [x, y] = [from[0] + share * way[0], from[1] + share * way[1]];
         let corner = |dx: f64, up: f64| at([x + dx * way[0].signum() * POST_M, y], up);
         vec![corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, high), corner(-1.0, high)]
@@ -99,7 +100,7 @@ fn of_rail(drives: &Drives, rail: &Rail, line: &[[f64; 2]]) -> Polygons {
 /// A cushion from its final nose to its back; a sign in its initial position.
 fn of_slider(drives: &Drives, number: usize, slider: &Slider) -> Polygons {
     let Some(direction_rad) = slider.direction_rad else { return upright(drives, &slider.corners_m, [0.0, POLE_M]) };
-    let (sine, cosine) = direction_rad.sin_cos();
+    let (sine, cosine) = trig::sin_cos(direction_rad);
     let along = |[x, y]: [f64; 2]| x * cosine + y * sine;
     let ends = slider.corners_m.iter().map(|corner| along(*corner));
     let [nose, back] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], at| [a.min(at), b.max(at)]);

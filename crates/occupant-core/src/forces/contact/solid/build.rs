@@ -173,7 +173,7 @@ fn between_ends(whole: Form<f64>, mut faces: Vec<Face<f64>>, across_m: f64, thic
 /// The line of side `i`, drawn in.
 fn side_line(corners: &[[f64; 2]], i: usize, by_m: f64) -> Line {
     let ([u, v], [u2, v2]) = (corners[i], corners[(i + 1) % corners.len()]);
-    let length = (u2 - u).hypot(v2 - v);
+    let length = trig::hypot(u2 - u, v2 - v);
     let [du, dv] = [(u2 - u) / length, (v2 - v) / length];
     Line { start: [u - dv * by_m, v + du * by_m], direction: [du, dv] }
 }
@@ -212,7 +212,7 @@ pub(super) fn flat(corners: &[Point3<f64>]) -> Result<Flat, Wrong> {
     for at in 0..order.len() {
         let [p, q, r] = [0, 1, 2].map(|step| order[(at + step) % order.len()].2);
         let turn = (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]);
-        if turn <= 1e-9 * size * size || (q[0] - p[0]).hypot(q[1] - p[1]) < SAME_M {
+        if turn <= 1e-9 * size * size || trig::hypot(q[0] - p[0], q[1] - p[1]) < SAME_M {
             let number = order[(at + 1) % order.len()].1 + 1;
             return Err((
                 format!("corner {number} is no corner of the convex hull of all"),

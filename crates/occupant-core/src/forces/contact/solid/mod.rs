@@ -16,6 +16,7 @@ mod tests;
 pub(crate) use build::build;
 pub(crate) use concave::{CONCAVE_WITHIN_M, concave_rad};
 pub(crate) use faced::Faced;
+use occupant_units::trig;
 pub(crate) use system::{Member, Solids, lever};
 
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -119,7 +120,7 @@ impl Shape {
                 corners_m.iter().fold(Bounds::NONE, |all, p| all.and(Bounds::of(&[p - arm, p + arm])))
             }
             Shape::Disc { centre_m, radius_m, thickness_m, .. } => {
-                Bounds::ball(centre_m, radius_m.hypot(0.5 * thickness_m))
+                Bounds::ball(centre_m, trig::hypot(*radius_m, 0.5 * thickness_m))
             }
             Shape::Capsule { ends_m, radius_m } => Bounds::of(ends_m).grown(*radius_m),
             Shape::Rim { centre_m, ring_radius_m, tube_radius_m, .. } => {

@@ -1,5 +1,6 @@
 //! The barriers of `[drive.barriers]`.
 
+use occupant_units::trig;
 use std::f64::consts::PI;
 
 use vehicle_motion::barrier::{Barrier, Block, End, Pole, Rail, Slider, Wall};
@@ -76,7 +77,7 @@ impl BlockSection {
 
 /// Corners of a rectangle about its middle, clockwise from above.
 fn rectangle([x, y]: [f64; 2], lengths_m: [f64; 2], yaw_rad: f64) -> Vec<[f64; 2]> {
-    let (sine, cosine) = yaw_rad.sin_cos();
+    let (sine, cosine) = trig::sin_cos(yaw_rad);
     let corner = |[along, across]: [f64; 2]| {
         let [a, c] = [0.5 * along * lengths_m[0], 0.5 * across * lengths_m[1]];
         [x + a * cosine - c * sine, y + a * sine + c * cosine]
@@ -109,7 +110,7 @@ impl RailSection {
         put(&mut rail.anchor_n_per_m, &self.anchor);
         put(&mut rail.yield_n, &self.yields);
         put(&mut rail.friction, &self.friction);
-        let length_m = way[0].hypot(way[1]);
+        let length_m = trig::hypot(way[0], way[1]);
         if length_m < 2.0 * rail.spacing_m {
             let found = format!("a rail of {length_m:.2} m on posts every {} m", rail.spacing_m);
             b.error(&with_key(at, "line"), found, "at least two spacings of its posts");
@@ -133,7 +134,7 @@ impl CushionSection {
             ],
         )?;
         let back_rad = si_or(&self.facing, PI) + PI;
-        let (sine, cosine) = back_rad.sin_cos();
+        let (sine, cosine) = trig::sin_cos(back_rad);
         let [x, y] = all_si(&self.at);
         let middle = [x + 0.5 * length_m * cosine, y + 0.5 * length_m * sine];
         Some(Slider {
