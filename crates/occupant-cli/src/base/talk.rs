@@ -1,7 +1,7 @@
 //! The two voices: results on standard output, talk on standard error.
 
 use std::fs::symlink_metadata;
-use std::io::{self, ErrorKind, IsTerminal, Write, stderr, stdout};
+use std::io::{self, ErrorKind, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use placed_text::plain;
@@ -19,28 +19,20 @@ ctor::declarative::ctor! {
     #[ctor(unsafe)]
     fn look_before_main() {
         let is_there = |path| symlink_metadata(path).is_ok();
-        CLOSED.store(is_there("/dev/fd") && !is_there("/dev/fd/1"), Ordering::Relaxed);
+        CLOSED.store(cfg!(unix) && is_there("/dev/fd") && !is_there("/dev/fd/1"), Ordering::Relaxed);
     }
 }
 
-/// Prints a result with control characters escaped. A closed pipe is no error.
+/// Prints a result with control characters escaped. A closed pipe is no error. An exceeded limit is red where the terminal
+/// has colours, by <https://no-color.org> and `CLICOLOR_FORCE`; an old console of Windows is coloured through its own calls.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let text = plain(text);
-    print_file(
-        if has_colours() { text.replace(BEYOND, &format!("\u{1b}[1;31m{BEYOND}\u{1b}[0m")) } else { text }.as_bytes(),
-    )
+    let text = plain(text).replace(BEYOND, &format!("\u{1b}[1;31m{BEYOND}\u{1b}[0m"));
+    end_line();
+    written(anstream::stdout().write_all(text.as_bytes()))
 }
 
 /// Verdict of an exceeded limit.
 const BEYOND: &str = "EXCEEDED";
-
-/// Whether standard output is a terminal with colours, by <https://no-color.org> and `CLICOLOR_FORCE`.
-fn has_colours() -> bool {
-    let says = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    let is_forced = says("CLICOLOR_FORCE") && std::env::var_os("CLICOLOR_FORCE").is_some_and(|value| value != "0");
-    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    !says("NO_COLOR") && (is_forced || (stdout().is_terminal() && !is_dumb))
-}
 
 /// Prints the bytes of a file unchanged. A closed pipe is no error.
 pub(crate) fn print_file(bytes: &[u8]) -> Result<(), Failure> {

@@ -10,6 +10,7 @@ mod new;
 mod problems;
 mod resume;
 mod run;
+mod windows;
 mod words;
 
 use std::path::Path;

@@ -290,8 +290,15 @@ pub fn is_at(file: &File, path: &Path) -> bool {
     here.is_ok_and(|here| file.metadata().map(identity).is_ok_and(|own| own == here))
 }
 
+/// Whether the open file is the one with this name.
+#[cfg(windows)]
+pub fn is_at(file: &File, path: &Path) -> bool {
+    let own = file.try_clone().and_then(same_file::Handle::from_file);
+    same_file::Handle::from_path(path).is_ok_and(|here| own.is_ok_and(|own| own == here))
+}
+
 /// Whether the open file is the one with this name; where unknown, whether one exists.
-#[cfg(not(unix))]
+#[cfg(not(any(unix, windows)))]
 pub fn is_at(_file: &File, path: &Path) -> bool {
     path.exists()
 }
