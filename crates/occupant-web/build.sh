@@ -3,8 +3,6 @@
 # gzip and base64.
 #
 #   crates/occupant-web/build.sh target/occupant.html
-#
-# Where rustup has not installed the target, RUSTC and CARGO name a toolchain whose standard library is there as source.
 set -euo pipefail
 page=$(realpath -m "${1:-target/occupant.html}")
 cd "$(dirname "$0")/../.."
@@ -15,19 +13,13 @@ out=${WASM_TARGET_DIR:-$PWD/target/wasm}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-cargo=${CARGO:-cargo}
-from_source=()
-if [ -n "${RUSTC:-}" ]; then
-  from_source=(-Z build-std=std,panic_abort)
-  export RUSTC RUSTC_BOOTSTRAP=1
-fi
-linker=()
-for name in wasm-ld wasm-ld-19; do
-  if [ -n "${RUSTC:-}" ] && command -v "$name" >/dev/null; then linker=(-C "linker=$name"); fi
-done
+. .ci/cross.sh
+cross "$target"
+# vectors of two numbers, which browsers have had since 2023. A study's kernels in lanes are not called: compiled for size
+export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS='-C target-feature=+simd128'
 # a crate type of the command line, so that the workspace links no library; the stack is that of a main thread
-CARGO_TARGET_DIR=$out "$cargo" rustc "${from_source[@]}" --release --locked \
-  --target "$target" --package occupant-web --lib --crate-type cdylib -- -C link-arg=-zstack-size=8388608 "${linker[@]}"
+CARGO_TARGET_DIR=$out "${cargo[@]}" rustc --release --locked --config 'profile.release.package.occupant-study.opt-level="s"' \
+  --target "$target" --package occupant-web --lib --crate-type cdylib -- -C link-arg=-zstack-size=8388608
 
 [ -d "$viewer/node_modules/esbuild" ] || (cd "$viewer" && npm ci --no-audit --no-fund --silent)
 bundle=(npx --prefix "$viewer" esbuild --bundle --minify --target=es2022 --charset=utf8 --legal-comments=inline)

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use occupant_core::diagnosis::{FrictionWatch, UnstableFriction};
 use occupant_core::model::Model;
+use occupant_core::results::channel::channels;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
@@ -31,6 +32,8 @@ pub struct Ran {
     summary: Summary,
     unstable_friction: Vec<UnstableFriction>,
     warnings: Vec<Problem>,
+    /// Names of all channels that can be plotted.
+    channels: Vec<String>,
 }
 
 /// Tells how much of a run is done.
@@ -52,14 +55,14 @@ impl Recorder for Progress<'_> {
     }
 }
 
-/// Runs a case.
+/// Runs a case, and plots these channels before the others.
 ///
 /// # Errors
-/// All that is wrong with it.
-pub fn run(case: &Case, told: &mut dyn FnMut(f64)) -> Result<Ran, Refused> {
+/// All that is wrong with it; a name or pattern that fits no channel.
+pub fn run(case: &Case, plotted: &[String], told: &mut dyn FnMut(f64)) -> Result<Ran, Refused> {
     let Opened { loaded, model, mut warnings } = case.open()?;
     let (mut summarizer, mut friction) = (Summarizer::new(), FrictionWatch::new());
-    let mut gathered = PageRecorder::new(&model);
+    let mut gathered = PageRecorder::new(&model, plotted)?;
     let progress = Progress { told, span_s: [0.0, 1.0] };
     let seen = (progress, ((&mut summarizer, &mut friction), &mut gathered));
     let outcome = attempt(&model, seen).map_err(Failure::broke_off)?;
@@ -84,6 +87,7 @@ pub fn run(case: &Case, told: &mut dyn FnMut(f64)) -> Result<Ran, Refused> {
         unstable_friction: friction.unstable(&model),
         summary,
         warnings: problems(&warnings),
+        channels: channels(&model).into_iter().map(|channel| channel.name).collect(),
     })
 }
 
@@ -110,7 +114,7 @@ pub fn opened(name: &str, bytes: &[u8]) -> Result<Saved, Refused> {
         set: set.unwrap_or_default(),
         tables: tables.collect(),
     };
-    Ok(Saved { run: Run::of(&results, units)?, summary: results.summary()?, case })
+    Ok(Saved { run: Run::of(&results, &[], units)?, summary: results.summary()?, case })
 }
 
 /// What is known of a run that has no file.

@@ -20,6 +20,10 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
 
+    /// Channels to plot before the others, by name or pattern, such as 'head.acceleration.*'
+    #[arg(long = "channel", alias = "channels", value_name = "NAMES")]
+    channels: Vec<String>,
+
     #[command(flatten)]
     units: UnitsArg,
 
@@ -40,15 +44,16 @@ pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     let files: Vec<PathBuf> = args.runs.iter().chain(&args.against).cloned().collect();
     let output = args.output.clone().unwrap_or_else(|| args.runs[0].with_extension("html"));
     let is_unasked = args.output.is_none();
-    write(&files, &output, (args.force, is_unasked, args.open), args.units)
+    write(&files, &output, (args.force, is_unasked, args.open), &args.channels, args.units)
 }
 
 /// Writes the page of runs. `force`: replace any existing file; `is_unasked`: replace an earlier page of the same runs;
-/// `open`: open the page.
+/// `open`: open the page; `channels`: plots before the others.
 pub(crate) fn write(
     files: &[PathBuf],
     output: &Path,
     (force, is_unasked, open): (bool, bool, bool),
+    channels: &[String],
     units: UnitsArg,
 ) -> Result<(), Failure> {
     if !is_page(output) {
@@ -63,7 +68,7 @@ pub(crate) fn write(
     runs.iter().flat_map(Results::notes).for_each(|text| note(&text));
     let force = force || is_unasked && replaces_earlier(files, output);
     let units = runs.first().map_or_else(Units::default, |run| units.or(run.loaded.scenario.units));
-    let page = page(&runs, units)?;
+    let page = page(&runs, channels, units)?;
     deliver_and(open, output, force, page.as_bytes())
 }
 

@@ -143,7 +143,7 @@ fn several(args: &Args) -> Result<Done, Failure> {
     }
     beside(&runs)?;
     if let Some(page) = &args.output {
-        report::write(&files, page, (args.force, true, false), args.units)?;
+        report::write(&files, page, (args.force, true, false), &[], args.units)?;
     }
     Ok(done)
 }

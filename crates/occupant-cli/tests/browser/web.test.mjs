@@ -23,7 +23,7 @@ const MOST_MS = { first: 3000, answer: 500 };
 const DESKTOP = { width: 1280, height: 800 };
 const PHONE = { width: 360, height: 740 };
 
-const tests = { isSmall, isQuick, answersHands, isTheCommand, isTheCommandWithChanges, isTheSweep, savesResults, takesHostileTexts, marksProblems, completes, compares, teaches, carriesLinks, runsFromServers, isNamed, fits };
+const tests = { isSmall, isQuick, answersHands, isTheCommand, isTheCommandWithChanges, isTheSweep, savesResults, takesHostileTexts, marksProblems, completes, plotsChannels, compares, teaches, carriesLinks, runsFromServers, isNamed, fits };
 
 const ask = (page, request) => page.evaluate((r) => window.occupantPage.runner.ask(r).then(({ answer }) => answer), request);
 
@@ -256,6 +256,27 @@ async function completes(open) {
   await picture(page, "completion");
   await area.press("Enter");
   assert.match(await area.inputValue(), /head_gap = $/);
+  return page;
+}
+
+async function plotsChannels(open) {
+  const page = await open(file);
+  await idle(page);
+  const field = page.getByLabel("Channels to plot, by name or pattern");
+  await field.fill("head.acceleration.*, head.x");
+  await field.press("Enter");
+  await idle(page);
+  const titles = await page.locator(".plot h3").allTextContents();
+  assert.match(titles[0], /^head\.acceleration\.x and 3 more \[/);
+  assert.match(titles[1], /^head\.x \[/);
+  await field.fill("hed.x");
+  await field.press("Enter");
+  await idle(page);
+  assert.match(await page.locator(".status").textContent(), /hed\.x.*head\.x/s);
+  await field.fill("");
+  await field.press("Enter");
+  await idle(page);
+  assert.equal((await page.locator(".plot h3").allTextContents())[0], titles[2]);
   return page;
 }
 

@@ -1,5 +1,7 @@
 //! The time histories of the page, taken from the channels of the run.
 
+use std::collections::HashSet;
+
 use crate::base::customary::*;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, channels, star};
@@ -44,8 +46,8 @@ const CONTACT_FORCE: &str = "Contact force";
 /// Titles of plots with each occupant's own channels; with several occupants, names are prefixed.
 const OWN: [&str; 4] = [RECIPES[0].0, RECIPES[3].0, RECIPES[4].0, RECIPES[5].0];
 
-/// A recorder of all channels needed by the plots.
-pub fn series(model: &Model) -> Series {
+/// A recorder of all channels needed by the plots, and of the chosen ones.
+pub fn series(model: &Model, chosen: &[Channel]) -> Series {
     let needed = |c: &Channel| {
         let after = c.name.split_once('.').map_or("", |(_, after)| after);
         RECIPES.iter().any(|(title, _, curves)| {
@@ -53,7 +55,34 @@ pub fn series(model: &Model) -> Series {
             is_in(&c.name) || OWN.contains(title) && is_in(after)
         })
     };
-    Series::new(channels(model).into_iter().filter(needed).collect())
+    let is_chosen = |c: &Channel| chosen.iter().any(|one| one.name == c.name);
+    Series::new(channels(model).into_iter().filter(|c| is_chosen(c) || needed(c)).collect())
+}
+
+/// Plots of the chosen channels, one for each unit.
+pub fn own_plots(series: &Series, chosen: &[Channel], units: Units) -> Vec<Plot> {
+    let mut kinds: Vec<&'static str> = chosen.iter().map(|c| c.unit.symbol()).collect();
+    let mut seen = HashSet::new();
+    kinds.retain(|unit| seen.insert(*unit));
+    let found = |c: &&Channel| series.channels.iter().position(|own| own.name == c.name);
+    let plot = |unit: &'static str| {
+        let (per, shown) = units.over(unit);
+        let own = chosen.iter().filter(|c| c.unit.symbol() == unit).filter_map(|c| found(&c));
+        let own = own.map(|i| (series.channels[i].name.clone(), &series.channels[i], &series.values[i]));
+        let curves: Vec<Curve> = own.map(|found| curve(found, unit, per)).collect();
+        Plot { title: titled(&curves), unit: shown, curves }
+    };
+    kinds.into_iter().map(plot).collect()
+}
+
+/// Names of the first curves, and how many more there are.
+fn titled(curves: &[Curve]) -> String {
+    match curves {
+        [one] => one.name.clone(),
+        [one, other] => format!("{}, {}", one.name, other.name),
+        [one, rest @ ..] => format!("{} and {} more", one.name, rest.len()),
+        [] => String::new(),
+    }
 }
 
 /// The plots, without empty ones. Prefixes are those of each occupant's channels.

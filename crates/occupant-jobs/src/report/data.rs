@@ -4,7 +4,7 @@ use nalgebra::Point3;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::model::Model;
-use occupant_core::results::channel::Series;
+use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
@@ -19,6 +19,7 @@ use super::motion::Motion;
 use super::ride_down::RideDown;
 use super::{curves, measures, provenance};
 use crate::base::{Failure, Units, file_name};
+use crate::files::history::choose;
 use occupant_files::mcap::scene::compartment::{corners_m, square_m};
 use occupant_files::results::Results;
 use occupant_pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
@@ -117,6 +118,7 @@ struct SurfaceData {
 pub struct PageRecorder {
     motion: Motion,
     series: Series,
+    chosen: Vec<Channel>,
     ride: RideDown,
 }
 
@@ -134,14 +136,19 @@ pub struct Source {
 }
 
 impl PageRecorder {
-    /// A recorder of a run of the model.
-    pub fn new(model: &Model) -> Self {
-        PageRecorder { motion: Motion::default(), series: curves::series(model), ride: RideDown::default() }
+    /// A recorder of a run of the model. The page begins with plots of the channels that these names and patterns choose.
+    ///
+    /// # Errors
+    /// A name or pattern that fits no channel.
+    pub fn new(model: &Model, channels: &[String]) -> Result<Self, Failure> {
+        let chosen = if channels.is_empty() { Vec::new() } else { choose(model, channels)? };
+        let series = curves::series(model, &chosen);
+        Ok(PageRecorder { motion: Motion::default(), series, chosen, ride: RideDown::default() })
     }
 
     /// The run on the page.
     pub fn run(self, model: &Model, summary: &Summary, told: Source, units: Units) -> Run {
-        let PageRecorder { motion, series, ride } = self;
+        let PageRecorder { motion, series, chosen, ride } = self;
         let mut times = Array::default();
         times.float64(&series.time_s);
         let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
@@ -152,6 +159,8 @@ impl PageRecorder {
         notes.extend(remarks.iter().map(|note| note.text.clone()));
         let mut provenance = provenance::ending(summary, series.time_s.len());
         provenance.extend(told.origin);
+        let mut plots = curves::own_plots(&series, &chosen, units);
+        plots.extend(curves::plots(&series, &prefixes, units));
         Run {
             label: told.label,
             title: model.setup().title.clone(),
@@ -164,7 +173,7 @@ impl PageRecorder {
             spheres: spheres(model),
             surfaces: surfaces(model).into_iter().chain(sides(model)).chain(scenery(model)).collect(),
             motion,
-            plots: curves::plots(&series, &prefixes, units),
+            plots,
             measures: measures::measures(summary, &ride, units),
             force_unit: units.over("kN"),
             speed_unit: units.over("m/s"),
@@ -195,12 +204,12 @@ impl Run {
         file_name(&results.path)
     }
 
-    /// Collects the data of a run.
+    /// Collects the data of a run, with plots of channels as [`PageRecorder::new`] has them.
     ///
     /// # Errors
-    /// None for a file that was opened.
-    pub fn of(results: &Results, units: Units) -> Result<Self, Failure> {
-        let mut gathered = PageRecorder::new(&results.model);
+    /// A name or pattern that fits no channel.
+    pub fn of(results: &Results, channels: &[String], units: Units) -> Result<Self, Failure> {
+        let mut gathered = PageRecorder::new(&results.model, channels)?;
         results.replay(&mut gathered)?;
         let told = Source {
             label: Run::label_of(results),

@@ -21,12 +21,12 @@ pub use data::{PageRecorder, Report, Run, Source, subject};
 /// Largest number of runs on a page: each has its own colour.
 pub const MOST_RUNS: usize = 4;
 
-/// The page of a run, or of several side by side.
+/// The page of a run, or of several side by side, with plots of these channels before the others.
 ///
 /// # Errors
-/// None for files that were opened.
-pub fn page(runs: &[Results], units: Units) -> Result<String, Failure> {
+/// A name or pattern that fits no channel.
+pub fn page(runs: &[Results], channels: &[String], units: Units) -> Result<String, Failure> {
     let vehicles = vehicles::vehicles(runs, units);
-    let runs = runs.iter().map(|run| Run::of(run, units)).collect::<Result<_, _>>()?;
+    let runs = runs.iter().map(|run| Run::of(run, channels, units)).collect::<Result<_, _>>()?;
     page::fill(&Report { program: program(), runs }, vehicles)
 }

@@ -117,7 +117,7 @@ fn read_by_all(file: &Path) -> Option<()> {
     }
     let results = Results::open(file).ok()?;
     let _ = (results.summary(), results.notes(), results.ending());
-    let _ = page(std::slice::from_ref(&results), Units::default());
+    let _ = page(std::slice::from_ref(&results), &[], Units::default());
     let all = choose(&results.model, &[]).ok()?;
     let treatment =
         Treatment { filter: Filter::J211, family: crash_measures::signal::CfcFamily::SaeJ211, interval_s: Some(1e-3) };

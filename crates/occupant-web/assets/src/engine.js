@@ -8,7 +8,9 @@ export async function unpack(text) {
   const packed = new Uint8Array(binary.length);
   for (let i = 0; i < binary.length; i++) packed[i] = binary.charCodeAt(i);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+  // compiled while it is unpacked
+  const headers = { "Content-Type": "application/wasm" };
+  return WebAssembly.compileStreaming(new Response(stream, { headers }));
 }
 
 /** A request that was given up for a later one. */
@@ -64,6 +66,12 @@ export class Engine {
       worker.onerror = (event) => failed(new Error(event.message));
       worker.postMessage({ request: JSON.stringify(request), file });
     });
+  }
+
+  /** Ends the worker. */
+  end() {
+    this.worker.terminate();
+    URL.revokeObjectURL(this.source);
   }
 
   /** Gives up what is under way. */

@@ -23,7 +23,12 @@ class Page {
     this.times = { begin: performance.now() };
     this.knobs = new Knobs((path, value, isOver) => this.move(path, value, isOver));
     this.editor = new Editor((text) => this.write(text));
-    this.view = new View();
+    /** Channels to plot before the others. */
+    this.plotted = [];
+    this.view = new View((names) => {
+      this.plotted = names;
+      this.ask();
+    });
     this.study = new StudyTab(this);
     this.build(root);
   }
@@ -85,6 +90,7 @@ class Page {
   async begin(module) {
     this.say("Unpacking the simulator …");
     const compiled = await unpack(module);
+    this.module = compiled;
     this.runner = new Engine(compiled);
     this.checker = new Engine(compiled);
     const linked = await fromFragment(location.hash);
@@ -226,7 +232,7 @@ class Page {
 
   async runOnce() {
     const moved = this.times.moved;
-    const request = { do: "run", case: this.case() };
+    const request = { do: "run", case: this.case(), channels: this.plotted };
     this.say("Running …");
     const slow = setTimeout(() => {
       this.bar.hidden = false;
@@ -235,6 +241,7 @@ class Page {
     try {
       const { answer, ms } = await this.runner.ask(request, (share) => (this.bar.value = share));
       this.now = { run: readRun(answer.run), summary: answer.summary, warnings: answer.warnings };
+      this.view.offer(answer.channels);
       this.show();
       const s = this.now.summary;
       this.say(

@@ -1,7 +1,7 @@
 // A small study: some sliders varied together, one figure of each run against each of them.
 
 import { element, figures } from "../../../occupant-jobs/assets/viewer/src/dom.js";
-import { Refused } from "./engine.js";
+import { Engine, Refused } from "./engine.js";
 
 /** Figures that one is likely to look for, the first that is there is shown first. */
 const LIKELY = ["hic15", "chest.three_ms_cumulative", "chest_deflection", "head_excursion.forward"];
@@ -110,25 +110,45 @@ export class StudyTab {
     const base = this.page.case();
     const { answer } = await this.page.checker.ask({ do: "study", case: base, study: text });
     this.study = { varied, parameters: answer.parameters, rows: [] };
-    let failed = 0;
-    for (const [i, sample] of answer.samples.entries()) {
-      if (!this.running) break;
-      this.bar.value = i / answer.samples.length;
-      this.words.textContent = `Run ${i + 1} of ${answer.samples.length}`;
-      const request = { do: "measure", case: { ...base, set: [...base.set, ...sample.set] } };
-      try {
-        const run = await this.page.checker.ask(request);
-        this.study.rows.push({ values: sample.values, figures: run.answer.figures });
-        if (i === 0) this.offer(run.answer.figures);
-        this.draw();
-      } catch (error) {
-        failed += 1;
-        this.study.rows.push({ values: sample.values, figures: [], failed: error.message });
+    const engines = this.engines();
+    let next = 0;
+    const take = async (engine) => {
+      while (this.running && next < answer.samples.length) {
+        const number = next++;
+        await this.runOne(engine, number, base, answer.samples[number]);
+        const done = this.study.rows.length;
+        this.bar.value = done / answer.samples.length;
+        this.words.textContent = `${done} of ${answer.samples.length} runs`;
       }
-    }
+    };
+    await Promise.all(engines.map(take));
+    engines.slice(1).forEach((engine) => engine.end());
+    this.study.rows.sort((a, b) => a.number - b.number);
+    const failed = this.study.rows.filter((row) => row.failed).length;
     const done = this.study.rows.length - failed;
     this.words.textContent = `${done} runs${failed > 0 ? `, ${failed} failed` : ""}.`;
     this.csv.hidden = false;
+  }
+
+  /** Workers for a study: one core is left for the page. */
+  engines() {
+    const most = Math.max(1, Math.min(8, (navigator.hardwareConcurrency ?? 2) - 1));
+    const more = Array.from({ length: most - 1 }, () => new Engine(this.page.module));
+    return [this.page.checker, ...more];
+  }
+
+  async runOne(engine, number, base, sample) {
+    const request = { do: "measure", case: { ...base, set: [...base.set, ...sample.set] } };
+    const row = { number, values: sample.values, figures: [] };
+    try {
+      row.figures = (await engine.ask(request)).answer.figures;
+    } catch (error) {
+      row.failed = error.message;
+    }
+    this.study.rows.push(row);
+    if (row.failed) return;
+    if (this.study.rows.filter((one) => !one.failed).length === 1) this.offer(row.figures);
+    this.draw();
   }
 
   offer(all) {

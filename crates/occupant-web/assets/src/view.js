@@ -16,11 +16,25 @@ export function readRun(run) {
 }
 
 export class View {
-  constructor() {
+  /** `plot` hears the names of channels that are to be plotted before the others. */
+  constructor(plot) {
     this.heading = element("header", { class: "heading" });
     this.verdicts = element("div", { class: "judged" });
     this.stagePlace = element("div", { class: "stage", tabindex: "0", "aria-label": "Scene" });
     this.controls = element("div", { class: "controls", role: "group", "aria-label": "Playback" });
+    this.names = element("datalist", { id: "channels" });
+    this.chosen = element("input", {
+      type: "search",
+      list: "channels",
+      spellcheck: "false",
+      placeholder: "head.acceleration.*, head.x",
+      "aria-label": "Channels to plot, by name or pattern",
+    });
+    this.chosen.addEventListener("change", () => {
+      const names = this.chosen.value.split(/[\s,]+/).filter((name) => name);
+      plot(names);
+    });
+    const choice = element("label", { class: "choice" }, "Plot also ", this.chosen, this.names);
     this.plots = element("section", { class: "plots", "aria-label": "Time histories" });
     this.caveats = element("div", { class: "said" });
     this.tables = element("section", { class: "tables", "aria-label": "Results in numbers" });
@@ -30,7 +44,7 @@ export class View {
       "div",
       { class: "view" },
       this.heading,
-      element("div", { class: "halves" }, scene, element("div", { class: "beside" }, this.plots)),
+      element("div", { class: "halves" }, scene, element("div", { class: "beside" }, choice, this.plots)),
       this.verdicts,
       this.caveats,
       this.tables,
@@ -39,6 +53,12 @@ export class View {
     this.clock = null;
     this.removePlots = () => {};
     listenToKeys(() => this, scene);
+  }
+
+  /** Offers the names of a run's channels. */
+  offer(names) {
+    if (this.names.childElementCount === names.length) return;
+    this.names.replaceChildren(...names.map((name) => element("option", { value: name })));
   }
 
   /** Shows runs, the first in front; the time and the camera stay where they are. */
