@@ -69,7 +69,11 @@ pub fn import(path: &Path, reading: Reading) -> Result<Imported, Failure> {
     if columns.is_some() {
         trajectory::one_vehicle(path, vehicle)?;
         let recording = table_of(path, columns)?;
-        return Ok(Imported { record: TestRecord::default(), recording, axes: None, report: Report::default() });
+        let report = match hints.filter(|_| is_text(path)) {
+            Some(hints) => recorder::beside(path, &text_of(path)?.0, hints, &recording.sha256)?,
+            None => Report::default(),
+        };
+        return Ok(Imported { record: TestRecord::default(), recording, axes: None, report });
     }
     if let Some(header) = nhtsa::header(path) {
         let (record, recording) = nhtsa::read(&header, vehicle.unwrap_or(1))?;

@@ -213,6 +213,19 @@ fn said(line: &Line, head: Option<&Line>) -> Vec<(String, String)> {
     let cells: Vec<&str> = line.cells.iter().map(String::as_str).collect();
     let filled: Vec<&str> = cells.iter().copied().filter(|cell| !cell.is_empty()).collect();
     let pair = |key: &str, value: &str| (key.trim_end_matches([':', '=', ' ']).to_owned(), value.to_owned());
+    // a sentence with commas, as in `Air bag deployment, driver: 15 ms`
+    let has_value = |cell: &&str| cell.split_once(": ").is_some_and(|(_, value)| !value.trim().is_empty());
+    if filled.len() > 1
+        && !has_value(&filled[0])
+        && filled.last().is_some_and(has_value)
+        && !filled[1..].iter().any(|cell| is_value(cell))
+    {
+        let text = filled.join(", ");
+        return text.rsplit_once(": ").map(|(key, value)| vec![pair(key, value)]).unwrap_or_default();
+    }
+    if filled.len() > 1 && filled.iter().all(has_value) {
+        return filled.iter().filter_map(|cell| cell.split_once(": ")).map(|(key, value)| pair(key, value)).collect();
+    }
     match filled[..] {
         [] => Vec::new(),
         [text] => {
@@ -446,7 +459,7 @@ pub(super) fn contradiction(path: &Path, line: usize, found: &str) -> Trouble {
     Trouble::at(path, line, format!("the report contradicts itself: {found}"), "a report whose parts agree")
 }
 
-fn worn_words(worn: bool) -> &'static str {
+pub(super) fn worn_words(worn: bool) -> &'static str {
     if worn { "fastened" } else { "not fastened" }
 }
 

@@ -432,6 +432,7 @@ fn joined(above: Vec<(usize, String)>, below: Vec<(usize, String)>) -> Vec<(usiz
         () if below.is_empty() || below == "-" => above.to_owned(),
         () if above.is_empty() => below.to_owned(),
         () if units && name_and_unit(above).1.is_some() => above.to_owned(),
+        () if units && below.starts_with(['[', '(']) => format!("{above} {below}"),
         () if units => format!("{above} [{}]", below.trim_matches(['[', ']', '(', ')', ' '])),
         () => format!("{above} {below}"),
     };

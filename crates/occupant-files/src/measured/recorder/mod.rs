@@ -86,6 +86,7 @@ pub(super) fn read(
 ) -> Result<Option<(Recording, Report)>, Failure> {
     let Some(grid) = Grid::of(text) else { return Ok(None) };
     let tables: Vec<Known> = grid.tables.iter().map(Known::of).collect();
+    tables.iter().try_for_each(|known| known.check_units(path))?;
     if !tables.iter().any(Known::is_pulse) {
         return Ok(None);
     }
@@ -121,6 +122,7 @@ pub(super) fn read(
     }
     Pulse { path, facts: &facts, hints, headings: &headings, speed }.settle(&mut recording)?;
     recording.notes.extend(facts.notes.iter().cloned());
+    recording.notes.extend(devices(&facts, !grid.words.is_empty()));
     recording.notes.extend(passenger(facts.passenger_belt));
     recording.notes.extend(unused(&mine));
     let report =
@@ -208,53 +210,51 @@ fn check_speeds_of_other_events(
     }
 }
 
-/// Adds signals of a table; a quantity that another table gave must agree.
+/// Adds signals of a table; a quantity that another column or table gave must agree.
 fn add(path: &Path, recording: &mut Recording, signals: Vec<Signal>) -> Result<(), Failure> {
     for signal in signals {
-        let same =
-            recording.signals.iter().find(|other| other.name == signal.name && column_of(&signal.name).is_some());
+        let column = column_of(&written(&signal));
+        let same = recording.signals.iter().find(|other| column.is_some() && column_of(&written(other)) == column);
         match same {
             None => recording.signals.push(signal),
-            Some(other)
-                if other.values.len() == signal.values.len()
-                    && other.values.iter().zip(&signal.values).all(|(a, b)| a == b || a.is_nan() && b.is_nan()) =>
-            {
-                recording
-                    .notes
-                    .push(format!("`{}` is given twice with the same values: the second is left out", signal.name));
-            }
+            Some(other) if agree(&signal, other) => recording.notes.push(format!(
+                "`{}` is given again as `{}` with the same values: the second is left out",
+                written(other),
+                written(&signal)
+            )),
+            // two sensors, or two filters: the reader of motion says which it takes
+            Some(other) if signal.name != other.name && !speed_named(&signal.name) => recording.signals.push(signal),
             Some(other) => {
-                return Err(contradiction(
-                    path,
-                    1,
-                    &format!("`{}` has other values at {} than at {}", signal.name, signal.place, other.place),
-                )
-                .hint("delete one of the two tables, or choose an event with --event")
-                .into());
+                let found = format!(
+                    "`{}` at {} has other values than `{}` at {}",
+                    written(&signal),
+                    signal.place,
+                    written(other),
+                    other.place
+                );
+                return Err(contradiction(path, 1, &found)
+                    .hint("delete one of the two, or choose an event with --event")
+                    .into());
             }
-        }
-    }
-    let speeds: Vec<&Signal> = recording.signals.iter().filter(|s| speed_named(&s.name) && s.scale.is_some()).collect();
-    if let [first, second, ..] = speeds[..] {
-        let si = |s: &Signal| {
-            s.values.iter().rev().find(|v| v.is_finite()).map_or(0.0, |v| v * s.scale.map_or(1.0, |scale| scale.factor))
-        };
-        if (si(first) - si(second)).abs() > 0.6 + 0.02 * si(first).abs() {
-            return Err(contradiction(
-                path,
-                1,
-                &format!(
-                    "`{}` in {} and in {} differ",
-                    first.name,
-                    first.unit.as_deref().unwrap_or("?"),
-                    second.unit.as_deref().unwrap_or("?")
-                ),
-            )
-            .hint("delete one of the two columns")
-            .into());
         }
     }
     Ok(())
+}
+
+/// Name and unit of a signal.
+fn written(signal: &Signal) -> String {
+    signal.unit.as_ref().map_or_else(|| signal.name.clone(), |unit| format!("{} [{unit}]", signal.name))
+}
+
+/// Whether two signals are one within their rounding.
+fn agree(a: &Signal, b: &Signal) -> bool {
+    let of = |signal: &Signal| signal.scale.map_or(1.0, |scale| scale.factor);
+    let least = 1.05 * of(a).max(of(b));
+    let near = |(x, y): (&f64, &f64)| {
+        let (x, y) = (x * of(a), y * of(b));
+        x.is_nan() || y.is_nan() || (x - y).abs() <= least.min(0.5) + 0.02 * x.abs()
+    };
+    a.time_s == b.time_s && a.values.iter().zip(&b.values).all(near)
 }
 
 /// The speed for checks, m/s, with its words: as given, as told for the impact, or the last before it.
@@ -281,6 +281,49 @@ fn settled_speed(
     let given = hints.speed_m_s.map(|speed| (speed, "--speed".to_owned()));
     let told = facts.speed_m_s.map(|(speed, line)| (speed, format!("the speed at impact (line {line})")));
     Ok(given.or(told).or(of_table))
+}
+
+/// What is known of belt, bag and pretensioner, in words.
+fn devices(facts: &Facts, is_report: bool) -> Vec<String> {
+    let fired = |what: &str, said: Said<Fired>| {
+        let (fired, line) = said?;
+        Some(match fired {
+            Fired::At(time_s) => format!("{what} fired at {} ms (line {line})", number((time_s * 1e6).round() / 1e3)),
+            Fired::Yes => {
+                format!("{what} fired at an unknown time (line {line}): the trigger of the car's class is kept")
+            }
+            Fired::No => format!("{what} did not fire (line {line})"),
+        })
+    };
+    let belt = match facts.belt {
+        Some((worn, line)) => Some(format!("the driver's belt was {} (line {line})", facts::worn_words(worn))),
+        None => is_report
+            .then(|| "the report does not say whether the driver's belt was fastened: it is assumed so".to_owned()),
+    };
+    [belt, fired("the driver's front bag", facts.bag), fired("the driver's pretensioner", facts.pretensioner)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Beside a table of the user's own columns: what the rest of the report says.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn beside(path: &Path, text: &str, hints: Hints, sha256: &str) -> Result<Report, Failure> {
+    let Some(grid) = Grid::of(text) else { return Ok(Report::default()) };
+    let (all, events) = facts::read(&grid);
+    let facts = Facts::of(path, &all, hints.event)?;
+    let mut speed_m_s = facts.speed_m_s;
+    for (table, event) in grid.tables.iter().zip(&events) {
+        let known = Known::of(table);
+        let is_own = hints.event.is_none() || event.is_none() || event.as_deref() == hints.event;
+        if speed_m_s.is_none() && is_own && known.has("v") && !known.is_pulse() {
+            let own = table::read(path, &known.text(path, &mut Vec::new())?, None, sha256.to_owned())?;
+            speed_m_s = recorded_speed(&own).map(|(_, _, speed)| (speed, table.line));
+        }
+    }
+    Ok(Report { speed_m_s, belt: facts.belt, bag: facts.bag, pretensioner: facts.pretensioner })
 }
 
 fn passenger(belt: Said<bool>) -> Option<String> {
@@ -336,6 +379,26 @@ impl<'a> Known<'a> {
         let time = columns.iter().position(|column| *column == Some("t")).unwrap_or(0);
         let is_words = (0..names.len()).map(|i| i != time && is_of_words(table, i)).collect();
         Known { table, columns, names, is_words, time }
+    }
+
+    /// Refuses a quantity in a unit of another.
+    fn check_units(&self, path: &Path) -> Result<(), Trouble> {
+        for (plain, _) in self.names.iter().zip(&self.columns).filter(|(_, column)| column.is_none()) {
+            let named = column_named(&plain.name).filter(|name| ["dvx", "dvy", "ax", "ay", "az", "a"].contains(name));
+            let expected = match named {
+                Some("dvx" | "dvy") => "a unit of velocity, such as km/h or mph",
+                Some(_) => "a unit of acceleration, such as g or m/s^2",
+                None if speed_named(&plain.name) => "a unit of velocity, such as km/h or mph",
+                None => continue,
+            };
+            let is_other = |unit: &&String| scale_of(unit).is_some_and(|scale| scale.dimension != Default::default());
+            if let Some(unit) = plain.unit.as_ref().filter(is_other) {
+                let found = format!("`{unit}` as the unit of `{}`", plain.name);
+                return Err(Trouble::at(path, self.table.line, found, expected)
+                    .hint("correct the heading, or name all columns with their units with --columns"));
+            }
+        }
+        Ok(())
     }
 
     fn has(&self, name: &str) -> bool {
