@@ -11,9 +11,9 @@ type Sense = (&'static str, &'static [&'static str]);
 const SENSES: [Sense; 26] = [
     ("t", &["time", "t", "zeit", "zeitpunkt", "temps", "tiempo", "tempo", "times", "jikan", "jikoku"]),
     ("d", &["delta", "deltav", "dv", "δv", "δ", "change", "cumulative", "cumulated", "cum", "anderung", "aenderung", "kumuliert",
-        "kumulierte", "kumulativ", "variation", "cumulee", "cumule", "cambio", "variacion", "acumulado", "acumulada", "henka", "ruiseki",
+        "kumulierte", "kumulativ", "variation", "cumulee", "cumule", "cambio", "variacion", "acumulado", "acumulada", "henka", "henkaryo", "ruiseki",
         "deruta"]),
-    ("v", &["v", "velocity", "speed", "vitesse", "velocidad", "geschwindigkeit", "fahrzeuggeschwindigkeit", "fahrgeschwindigkeit",
+    ("v", &["v", "velocity", "speed", "vitesse", "velocidad", "geschwindigkeit", "geschw", "vel", "fahrzeuggeschwindigkeit", "fahrgeschwindigkeit",
         "sokudo", "sharyosokudo", "shasoku"]),
     ("dv", &["geschwindigkeitsanderung", "geschwindigkeitsaenderung", "sokudohenka"]),
     ("a", &["acceleration", "accel", "acc", "a", "beschleunigung", "beschl", "aceleracion", "accelerometer", "kasokudo"]),
@@ -41,7 +41,7 @@ const SENSES: [Sense; 26] = [
     ("dvy", &["dvy", "δvy", "deltavy"]),
     ("", &["in", "of", "the", "vehicle", "cg", "event", "crash", "position", "angle", "axis", "direction", "sensor", "center",
         "centre", "tm", "pulse", "sdm", "recorded", "indicated", "pre", "precrash", "gravity", "cog", "c", "g", "vehicle's", "car",
-        "body", "chassis", "raw", "filtered", "channel", "der", "des", "schwerpunkt", "richtung", "fahrzeug", "angezeigt", "angezeigte",
+        "body", "chassis", "raw", "filtered", "channel", "der", "des", "schwerpunkt", "richtung", "fzg", "kfz", "veh", "ryo", "ryou", "fahrzeug", "angezeigt", "angezeigte",
         "de", "du", "la", "le", "l", "vehicule", "indiquee", "direccion", "del", "el", "vehiculo", "indicada", "houkou", "hoko",
         "sharyo", "sharyou", "no"]),
 ];

@@ -18,6 +18,8 @@ pub(super) struct Fact {
     pub(super) value: String,
     pub(super) line: usize,
     pub(super) event: Option<String>,
+    /// The last title above it.
+    pub(super) section: String,
 }
 
 /// A device: when it fired, or that it did not.
@@ -135,6 +137,7 @@ pub(super) fn read(grid: &Grid) -> (Vec<Fact>, Vec<Option<String>>) {
     let mut event: Option<String> = None;
     let mut next = 0;
     let mut head: Option<&Line> = None;
+    let mut section = String::new();
     let mut last = 0;
     for (at, line) in &grid.words {
         settle(grid, &mut events, &mut next, *at, &event, &mut facts);
@@ -147,11 +150,15 @@ pub(super) fn read(grid: &Grid) -> (Vec<Fact>, Vec<Option<String>>) {
         if is_head(line) {
             head = Some(line);
         }
+        if line.filled() == 1 && !line.words().contains(": ") {
+            section = line.words();
+        }
         facts.extend(said(line, head).into_iter().map(|(key, value)| Fact {
             key: folded(&key),
             value: folded(&value),
             line: line.number,
             event: event.clone(),
+            section: section.clone(),
         }));
     }
     settle(grid, &mut events, &mut next, usize::MAX, &event, &mut facts);
@@ -169,7 +176,13 @@ fn settle(
 ) {
     while let Some(table) = grid.tables.get(*next).filter(|table| table.at < at) {
         events[*next] = event.clone();
-        facts.extend(of_columns(table).map(|(key, value, line)| Fact { key, value, line, event: event.clone() }));
+        facts.extend(of_columns(table).map(|(key, value, line)| Fact {
+            key,
+            value,
+            line,
+            event: event.clone(),
+            section: String::new(),
+        }));
         *next += 1;
     }
 }
@@ -222,6 +235,10 @@ fn said(line: &Line, head: Option<&Line>) -> Vec<(String, String)> {
     {
         let text = filled.join(", ");
         return text.rsplit_once(": ").map(|(key, value)| vec![pair(key, value)]).unwrap_or_default();
+    }
+    if filled.len() > 1 && has_value(&filled[0]) && !filled[1..].iter().any(|cell| cell.contains(':')) {
+        let text = filled.join(", ");
+        return text.split_once(": ").map(|(key, value)| vec![pair(key, value)]).unwrap_or_default();
     }
     if filled.len() > 1 && filled.iter().all(has_value) {
         return filled.iter().filter_map(|cell| cell.split_once(": ")).map(|(key, value)| pair(key, value)).collect();
@@ -285,7 +302,23 @@ impl Facts {
     }
 
     fn take(&mut self, path: &Path, fact: &Fact) -> Result<(), Trouble> {
-        let Fact { key, value, line, .. } = fact;
+        let Fact { key, value, line, section, .. } = fact;
+        // `driver buckled, passenger unbuckled`
+        if has(value, words::DRIVER) && has(value, words::PASSENGER) {
+            let clauses: Vec<&str> = value.split([',', ';', '/']).collect();
+            if clauses.len() > 1 && key != value {
+                return clauses.iter().try_for_each(|clause| {
+                    let clause = clause.trim();
+                    self.take(path, &Fact { key: format!("{key} {clause}"), value: clause.to_owned(), ..fact.clone() })
+                });
+            }
+            return Ok(());
+        }
+        let device = |text: &str| [words::BELT, words::BAG, words::PRETENSIONER].iter().any(|stems| has(text, stems));
+        if has(key, words::FIRING) && !device(key) && !device(value) && device(section) && key != value {
+            let key = format!("{section} {key}");
+            return self.take(path, &Fact { key, section: String::new(), ..fact.clone() });
+        }
         let both = format!("{key} {value}");
         let is_lamp = has(key, words::OTHER_BAG);
         let is_passenger = has(key, words::PASSENGER) && !has(key, words::DRIVER)
@@ -300,7 +333,7 @@ impl Facts {
             if !is_passenger && !is_lamp && !has(key, words::LATER_STAGE) && is_short {
                 self.notes.extend(set_fired(path, &mut self.bag, fact, "the driver's front bag")?);
             }
-        } else if has(&both, words::BELT) {
+        } else if has(&both, words::BELT) || has(value, words::BELTED) && (has(key, words::DRIVER) || is_passenger) {
             if !is_lamp && is_short {
                 self.take_belt(path, fact, is_passenger)?;
             }

@@ -74,12 +74,32 @@ impl Grid {
                 continue;
             };
             grid.words.extend((free..heads).map(|at| (at, lines[at].clone())));
-            grid.tables.push(table);
+            grid.tables.extend(beside(table));
             (i, free) = (end, end);
         }
         grid.words.extend((free..lines.len()).map(|at| (at, lines[at].clone())));
         Some(grid)
     }
+}
+
+/// Tables that stand side by side, each with its own times.
+fn beside(table: Table) -> Vec<Table> {
+    let times: Vec<usize> = (0..table.heads.len()).filter(|i| column_of(&table.heads[*i]) == Some("t")).collect();
+    if times.len() < 2 || times[0] != 0 {
+        return vec![table];
+    }
+    let ends = times.iter().skip(1).copied().chain([table.heads.len()]);
+    let part = |(from, to): (&usize, usize)| {
+        let cut =
+            |cells: &Vec<String>| (*from..to).map(|i| cells.get(i).cloned().unwrap_or_default()).collect::<Vec<_>>();
+        let rows = table.rows.iter().map(|(line, cells)| (*line, cut(cells)));
+        Table {
+            heads: cut(&table.heads),
+            rows: rows.filter(|(_, cells)| number(&cells[0]).is_some()).collect(),
+            ..table.clone()
+        }
+    };
+    times.iter().zip(ends).map(part).collect()
 }
 
 /// How cells are separated.
@@ -97,6 +117,8 @@ fn lines(text: &str) -> Option<Vec<Line>> {
     let has_commas = is_comma_separated(&all);
     let line = |(i, line): (usize, &&str)| {
         let line = line.replace(['\u{a0}', '\u{202f}', '\u{2009}'], " ").replace('\u{feff}', "");
+        // dots that lead from a key to its value
+        let line = if line.contains("...") || line.contains('…') { without_leaders(&line) } else { line };
         let bare = line.trim();
         if bare.is_empty() || bare.starts_with('#') {
             return None;
@@ -118,6 +140,15 @@ fn lines(text: &str) -> Option<Vec<Line>> {
         Some(Line { number: i + 1, cells, starts, blanks })
     };
     Some(all.iter().enumerate().filter_map(line).collect())
+}
+
+fn without_leaders(line: &str) -> String {
+    let mut text = line.replace('…', "...");
+    while let Some(at) = text.find("...") {
+        let length = text[at..].chars().take_while(|c| *c == '.').count();
+        text.replace_range(at..at + length, "   ");
+    }
+    text
 }
 
 /// Whether commas separate cells: most lines that begin with a number have only numbers or words between their commas.
@@ -225,7 +256,11 @@ fn is_value(cell: &str) -> bool {
 fn is_row(line: &Line) -> bool {
     let cells = row_cells(line);
     let [(_, time), rest @ ..] = &cells[..] else { return false };
-    number(time).is_some() && !rest.is_empty() && rest.iter().any(|(_, cell)| is_value(cell)) && !is_date(time)
+    number(time).is_some()
+        && !time.ends_with(['.', ','])
+        && !rest.is_empty()
+        && rest.iter().any(|(_, cell)| is_value(cell))
+        && !is_date(time)
 }
 
 fn is_date(cell: &str) -> bool {
@@ -508,7 +543,7 @@ pub(super) fn parts(head: &str) -> (String, Option<String>) {
     for _ in 0..2 {
         match unit {
             Some(text) if !known(text.split(['[', '(']).next().unwrap_or(text).trim()) => {
-                more = format!("{more} {text}");
+                more = format!("{more} ({text})");
                 (name, unit) = name_and_unit(name);
             }
             _ => break,
@@ -526,6 +561,13 @@ pub(super) fn parts(head: &str) -> (String, Option<String>) {
     let whole = format!("{name}{more}");
     if seconds_in(&whole).is_some() && whole.len() > 1 {
         return ("t".to_owned(), Some(whole));
+    }
+    // `t/ms`
+    let over = whole
+        .split_once('/')
+        .filter(|(name, unit)| column_named(name.trim()).is_some() && known(unit.trim()) && !name.trim().is_empty());
+    if let Some((name, unit)) = over {
+        return (name.trim().to_owned(), Some(unit.trim().to_owned()));
     }
     let last = whole.rsplit_once([' ', '_', ',']).filter(|(rest, unit)| {
         !rest.trim().is_empty() && (unit.len() > 1 || unit.eq_ignore_ascii_case("g")) && known(unit)
@@ -555,10 +597,12 @@ mod tests {
         for (head, name, unit) in [
             ("Delta-V, longitudinal (MPH [km/h])", "Delta-V, longitudinal", Some("MPH")),
             ("Delta-V (mph) [km/h]", "Delta-V", Some("mph")),
-            ("Sokudo henka [km/h] (zengo)", "Sokudo henka zengo", Some("km/h")),
+            ("Sokudo henka [km/h] (zengo)", "Sokudo henka (zengo)", Some("km/h")),
             ("dV long MPH", "dV long", Some("MPH")),
             ("msec", "t", Some("msec")),
-            ("Service Brake (On, Off)", "Service Brake On, Off", None),
+            ("t/ms", "t", Some("ms")),
+            ("dV long km/h", "dV long", Some("km/h")),
+            ("Service Brake (On, Off)", "Service Brake (On, Off)", None),
         ] {
             assert_eq!(parts(head), (name.to_owned(), unit.map(str::to_owned)), "{head}");
         }

@@ -637,7 +637,15 @@ fn is_of_words(table: &Table, column: usize) -> bool {
 
 /// The heading of a column; its unit also from its cells or from the title, its direction from the title.
 fn plain(head: &str, table: &Table, column: usize) -> Plain {
-    let (name, unit) = parts(head);
+    let (whole, unit) = parts(head);
+    // what stands in brackets may explain the sign
+    let name = match column_named(&whole).is_some() || speed_named(&whole) || !whole.contains(['(', '[']) {
+        true => whole.clone(),
+        false => without_brackets(&whole),
+    };
+    let brackets = folded(&whole);
+    let is_told_loss = has(&brackets, words::POSITIVE) && has(&brackets, words::LOSS)
+        || brackets.contains("+ = ") && has(&brackets, words::LOSS);
     let text = folded(&name);
     let is_acceleration =
         |word: &str| ["decel", "verzog", "verzoeg", "desaceler", "gensokudo"].iter().any(|stem| word.starts_with(stem));
@@ -686,7 +694,21 @@ fn plain(head: &str, table: &Table, column: usize) -> Plain {
     if lacks_direction && across != along {
         name += if across { " lateral" } else { " longitudinal" };
     }
-    Plain { name, unit, is_loss, told }
+    Plain { name, unit, is_loss: is_loss || is_told_loss, told }
+}
+
+/// A heading without what stands in brackets.
+fn without_brackets(head: &str) -> String {
+    let mut depth = 0_u32;
+    let outside = |c: &char| {
+        depth = match c {
+            '(' | '[' => depth + 1,
+            ')' | ']' => depth.saturating_sub(1),
+            _ => depth,
+        };
+        depth == 0 && !")]".contains(*c)
+    };
+    head.chars().filter(outside).collect::<String>().trim().to_owned()
 }
 
 /// Words that come with a change per interval.

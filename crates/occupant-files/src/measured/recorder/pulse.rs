@@ -96,6 +96,7 @@ impl Pulse<'_> {
             recording.notes.extend(note);
         }
         self.cumulate(recording, of_changes)?;
+        self.check_doubles(recording)?;
         self.check_sizes(recording)?;
         self.check_most(recording, of_changes)?;
         self.sign(recording, 0, ["dvx", "ax"].map(|name| at(recording, name)))?;
@@ -167,6 +168,25 @@ impl Pulse<'_> {
             }
             None => Ok(DeltaV::Cumulative),
         }
+    }
+
+    /// Velocity changes that are given twice, per interval and cumulative, agree.
+    fn check_doubles(&self, recording: &Recording) -> Result<(), Trouble> {
+        for name in ["dvx", "dvy"] {
+            let all: Vec<&Signal> =
+                recording.signals.iter().filter(|s| s.scale.is_some() && is_named(s, name)).collect();
+            let [first, others @ ..] = &all[..] else { continue };
+            for other in others {
+                let (a, b) = (extreme(&si(first)), extreme(&si(other)));
+                if (a - b).abs() > 0.3 + 0.05 * a.abs() {
+                    let found =
+                        format!("`{}` reaches {} km/h, and `{}` {} km/h", first.name, km_h(a), other.name, km_h(b));
+                    return Err(contradiction(self.path, self.heading(first).line, &found)
+                        .hint("choose one of the two with --columns, such as 't[ms],dvx[km/h],-'"));
+                }
+            }
+        }
+        Ok(())
     }
 
     fn check_sizes(&self, recording: &Recording) -> Result<(), Trouble> {

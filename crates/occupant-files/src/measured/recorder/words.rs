@@ -42,6 +42,29 @@ pub(super) const BAG: Stems = &[
     "ea baggu",
     "eabagu",
 ];
+/// Values that tell of a belt by themselves.
+pub(super) const BELTED: Stems = &[
+    "belted",
+    "unbelted",
+    "buckled",
+    "unbuckled",
+    "fastened",
+    "unfastened",
+    "angeschnallt",
+    "gegurtet",
+    "ungegurtet",
+    "abrochad",
+    "desabrochad",
+    "bouclee",
+    "debouclee",
+    "attachee",
+    "detachee",
+    "chakuyo",
+    "michakuyo",
+];
+/// What tells that something fired.
+pub(super) const FIRING: Stems =
+    &["deploy", "time to", "firing", "fired", "fire", "zund", "auslos", "declench", "despliegue", "tenkai", "activat"];
 /// Bags and straps that are not the driver's front bag.
 pub(super) const OTHER_BAG: Stems = &[
     "side", "curtain", "knee", "seiten", "kopf", "vorhang", "knie", "lateral", "rideau", "genou", "cortina", "rodilla",
@@ -53,7 +76,7 @@ pub(super) const LATER_STAGE: Stems = &[
     "etapa 2", "dai2", "dai 2",
 ];
 pub(super) const DRIVER: Stems =
-    &["driver", "fahrer", "conducteur", "conductor", "untenshu", "untenseki", "left front", "front left"];
+    &["driver", "fahrer", "conducteur", "conductor", "untensha", "untenshu", "untenseki", "left front", "front left"];
 pub(super) const PASSENGER: Stems = &[
     "passenger",
     "beifahrer",
@@ -121,6 +144,17 @@ pub(super) const IMPACT: Stems = &[
 ];
 pub(super) const SPEED_AT_IMPACT: Stems = &[
     "speed at impact",
+    "vehicle speed",
+    "pre-crash speed",
+    "initial speed",
+    "speed at t",
+    "speed at event",
+    "speed at trigger",
+    "anfangsgeschwindigkeit",
+    "fahrzeuggeschwindigkeit",
+    "velocidad inicial",
+    "vitesse initiale",
+    "vitesse avant",
     "impact speed",
     "speed at collision",
     "collision speed",
@@ -335,7 +369,11 @@ const YES: &[&str] = &[
     "yes",
     "true",
     "buckled",
+    "angeschnallt",
+    "gegurtet",
     "fastened",
+    "angeschnallt",
+    "gegurtet",
     "belted",
     "latched",
     "applied",
