@@ -73,7 +73,8 @@ pub(crate) fn files() -> tempfile::TempDir {
     fs::write(here.join("log.csv"), log).unwrap();
     let changes: String = (0..16).map(|i| format!("{};{},5\n", 10 * i, -3 * i)).collect();
     fs::write(here.join("recorder.csv"), format!("Time (ms);Delta-V longitudinal (km/h)\n{changes}")).unwrap();
-    let report = "Impact: frontal\nDriver belt: Buckled\n\nTime (ms),Delta-V longitudinal (km/h)\n0,0\n50,20\n100,41\n150,41\n";
+    let report =
+        "Impact: frontal\nDriver belt: Buckled\n\nTime (ms),Delta-V longitudinal (km/h)\n0,0\n50,20\n100,41\n150,41\n";
     fs::write(here.join("report.csv"), report).unwrap();
     let clock = rows(|t| format!("{};10:00;{:.4};0\n", t * 1e3, -20.0 * pulse(t)));
     fs::write(here.join("clock.csv"), format!("zeit;clock;long;gier\n{clock}")).unwrap();

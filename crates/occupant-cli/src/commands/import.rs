@@ -119,7 +119,7 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     )?;
     made.notes.iter().for_each(note);
     // curves under the names of channels are of use alone
-    let has_channels = imported.recording.signals.iter().any(|signal| signal.name.contains('.'));
+    let has_channels = imported.recording.signals.iter().any(|signal| is_channel(&signal.name));
     if made.path.is_none() && is_table(&args.source) && !has_channels {
         return Err(Failure::plain(format!(
             "{} contains no vehicle motion: nothing was written",
@@ -127,6 +127,14 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
         )));
     }
     write(args, &name, &imported, &made)
+}
+
+/// Whether a name is that of a channel, `head.acceleration.x`, and no abbreviation.
+fn is_channel(name: &str) -> bool {
+    let is_word = |word: &str| {
+        word.starts_with(char::is_alphabetic) && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+    };
+    name.contains('.') && name.split('.').all(is_word)
 }
 
 /// Whether the source is a single table, which is useless without a path.
@@ -179,8 +187,9 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
         let text = scenario(&args.source, imported, path, &file_name(&path_file));
         publish(name, args.force, text.as_bytes())?;
         let [from_s, to_s] = path.run_s.map(placed_text::number);
+        let who = if is_belted(&imported.report) { "a belted" } else { "an unbelted" };
         say(&format!(
-            "wrote {}: a belted driver in a generic car on that path, from {from_s} s to {to_s} s (--from and --to select a part)",
+            "wrote {}: {who} driver in a generic car on that path, from {from_s} s to {to_s} s (--from and --to select a part)",
             name.display()
         ));
     }
@@ -221,19 +230,26 @@ fn scenario(source: &Path, imported: &Imported, path: &PathTable, file: &str) ->
     with_report(&occupant_jobs::templates::with_path(&text(&title), &text(&origin), &section), &imported.report)
 }
 
+fn is_belted(report: &Report) -> bool {
+    report.belt.is_none_or(|(worn, _)| worn)
+}
+
 /// The scenario with what the report of a recorder says about belt and bag.
 fn with_report(scenario: &str, report: &Report) -> String {
     let seat = "[car.seats.driver]\n";
     let mut text = scenario.to_owned();
-    let mut put = |after: &str, line: String| text = text.replacen(after, &format!("{after}{line}"), 1);
+    let put = |text: &str, after: &str, line: String| text.replacen(after, &format!("{after}{line}"), 1);
     if let Some((worn, line)) = report.belt {
         let kind = if worn { "three_point" } else { "none" };
         let said = if worn { "fastened" } else { "not fastened" };
-        put(seat, format!("belt = \"{kind}\"        # recorder, line {line}: {said}\n"));
+        text = put(&text, seat, format!("belt = \"{kind}\"        # recorder, line {line}: {said}\n"));
     }
-    let is_worn = report.belt.is_none_or(|(worn, _)| worn);
+    let is_worn = is_belted(report);
+    if !is_worn {
+        text = text.replacen("# A belted driver", "# An unbelted driver", 1);
+    }
     if let Some((Fired::No, line)) = report.pretensioner {
-        put("pretensioner = \"100 mm\"", format!(" # recorder, line {line}: not fired, so set to 0\n"));
+        text = put(&text, "pretensioner = \"100 mm\"", format!(" # recorder, line {line}: not fired, so set to 0\n"));
         text = text.replacen("pretensioner = \"100 mm\" #", "pretensioner = \"0 mm\" #", 1);
     }
     if let Some((Fired::No, line)) = report.bag {

@@ -229,6 +229,10 @@ pub(super) fn number(cell: &str) -> Option<f64> {
 pub(super) fn number_and_unit(cell: &str) -> Option<(f64, String)> {
     let plain = cell.trim().replace(['\u{2212}', '\u{2013}', '\u{2011}'], "-");
     let plain = plain.strip_prefix('+').unwrap_or(&plain);
+    // as accounts write losses
+    if let Some((value, rest)) = plain.strip_prefix('(').and_then(|p| p.strip_suffix(')')).and_then(number_and_unit) {
+        return rest.is_empty().then_some((0.0 - value, rest));
+    }
     let is_part = |c: char| c.is_ascii_digit() || ".,-".contains(c);
     let end = plain.char_indices().find(|(_, c)| !is_part(*c)).map_or(plain.len(), |(at, _)| at);
     let exponent =
@@ -573,7 +577,11 @@ pub(super) fn parts(head: &str) -> (String, Option<String>) {
         !rest.trim().is_empty() && (unit.len() > 1 || unit.eq_ignore_ascii_case("g")) && known(unit)
     });
     match last {
-        Some((rest, unit)) => (rest.trim_end_matches([',', '_', ' ']).to_owned(), Some(unit.to_owned())),
+        // `Zeit in ms`
+        Some((rest, unit)) => {
+            let rest = rest.trim_end_matches([',', '_', ' ']);
+            (rest.strip_suffix(" in").unwrap_or(rest).to_owned(), Some(unit.to_owned()))
+        }
         None => (whole, None),
     }
 }
@@ -611,9 +619,14 @@ mod tests {
 
     #[test]
     fn numbers_of_recorders_are_read() {
-        for (cell, value) in
-            [("-12.4 [-20]", -12.4), ("\u{2212}3,5", -3.5), ("48 mph", 48.0), ("+2", 2.0), ("1e-3", 1e-3)]
-        {
+        for (cell, value) in [
+            ("-12.4 [-20]", -12.4),
+            ("\u{2212}3,5", -3.5),
+            ("(4.5)", -4.5),
+            ("48 mph", 48.0),
+            ("+2", 2.0),
+            ("1e-3", 1e-3),
+        ] {
             assert_eq!(number(cell), Some(value), "{cell}");
         }
         assert_eq!(second("-12.4 [-20]"), Some(-20.0));

@@ -414,7 +414,12 @@ impl<'a> Known<'a> {
         let times: Vec<Option<f64>> = self.times();
         let is_whole = self.table.rows.iter().all(|(_, cells)| cells.len() == self.table.heads.len());
         let is_usual = |plain: &Plain| !plain.is_loss && plain.told.is_none();
+        let is_bare =
+            |cell: &String| !cell.starts_with('(') && number_and_unit(cell).is_none_or(|(_, rest)| rest.is_empty());
+        let has_slash = |head: &String| head.contains('/') && placed_text::name_and_unit(head).1.is_none();
         is_whole
+            && self.table.rows.iter().all(|(_, cells)| cells.iter().all(is_bare))
+            && !self.table.heads.iter().any(has_slash)
             && times.iter().all(Option::is_some)
             && times.windows(2).all(|pair| pair[0] < pair[1])
             && self.names.iter().all(is_usual)

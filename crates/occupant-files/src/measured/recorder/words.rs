@@ -31,6 +31,7 @@ pub(super) const PRETENSIONER: Stems = &[
 ];
 pub(super) const BAG: Stems = &[
     "air bag",
+    "deployment command",
     "airbag",
     "air-bag",
     "frontairbag",
@@ -117,6 +118,17 @@ pub(super) const PRE_CRASH: Stems = &[
 /// What tells the kind or the direction of the impact.
 pub(super) const IMPACT: Stems = &[
     "impact",
+    "tsuitotsu",
+    "rear-end",
+    "head-on",
+    "frontal crash",
+    "rear crash",
+    "side crash",
+    "heckaufprall",
+    "frontalaufprall",
+    "seitenaufprall",
+    "auffahrunfall",
+    "alcance",
     "collision",
     "crash type",
     "crash direction",
@@ -194,6 +206,7 @@ pub(super) const FRONT: Stems = &[
 ];
 pub(super) const REAR: Stems = &[
     "rear",
+    "alcance",
     "heck",
     "hinten",
     "arriere",
