@@ -181,7 +181,10 @@ fn an_event_is_chosen_and_signs_are_turned_with_one_flag() {
         "{}",
         err(&several)
     );
-    imported(here, "events.csv", &["--event", "2"]).goes("0,0", "0.12,-30").has(&["speed = \"32 km/h\""]);
+    imported(here, "events.csv", &["--event", "2"])
+        .goes("0,0", "0.12,-30")
+        .has(&["speed = \"32 km/h\""])
+        .says(&["what belongs to other events is left out: 1"]);
     imported(here, "events.csv", &["--event", "1"]).goes("0,0", "0.12,-8").has(&["speed = \"40 km/h\""]);
     let none = answer(here, &["import", "events.csv", "-f", "--event", "3"]);
     assert!(none.status.code() == Some(2) && err(&none).contains("one of `1`, `2`"), "{}", err(&none));
@@ -361,6 +364,17 @@ fn reports_that_contradict_themselves_are_refused() {
     ];
     for (text, words) in &cases {
         refused(here, text, &[], words);
+    }
+    for (text, words) in [
+        (
+            pulse(x, -28.0).replace("(ms)", "(s)"),
+            &["a crash pulse `Delta-V longitudinal` of 140 s", "unit of time"][..],
+        ),
+        (pulse(x, -28.0).replace("(ms)", "(us)"), &["between two rows", "at most 300 g"]),
+        (pulse(x, -28.0).replace("\n0,-0.0", "\n0,-12"), &["is already -12 km/h at 0 s", "--delta-v interval"]),
+        (format!("Driver airbag deployment time: 15 s\n{}", pulse(x, -28.0)), &["fires 15 s after time zero"]),
+    ] {
+        refused(here, &text, &[], words);
     }
     // what the user says settles it
     fs::write(here.join("pushed.csv"), speeds(16.0, 14.0) + &pulse(x, -46.0)).unwrap();

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use occupant_scenario::folded;
 use occupant_units::unit::Unit;
-use placed_text::is_missing;
+use placed_text::{is_missing, number as number_in_words};
 
 use super::grid::{Grid, Line, Table, column_of, number, number_and_unit, parts};
 use super::words::{self, has, state};
@@ -567,11 +567,18 @@ fn set_fired(path: &Path, slot: &mut Said<Fired>, fact: &Fact, what: &str) -> Re
             }
         }
         None => match state(&fact.value) {
-            Some(true) => Fired::Yes,
             Some(false) => Fired::No,
+            _ if time_within(&fact.value).is_some() => Fired::At(time_within(&fact.value).unwrap_or_default()),
+            Some(true) => Fired::Yes,
             None => return Ok(None),
         },
     };
+    if let Fired::At(time_s) = found
+        && time_s > LATEST_S
+    {
+        let found = format!("{what} fires {} s after time zero", number_in_words(time_s));
+        return Err(Trouble::at(path, fact.line, found, "at most 1 s").hint("correct the unit of time"));
+    }
     match *slot {
         Some((told, line)) if (told == Fired::No) != (found == Fired::No) => {
             let [here, there] = [found, told].map(|fired| if fired == Fired::No { "did not fire" } else { "fired" });
@@ -585,6 +592,16 @@ fn set_fired(path: &Path, slot: &mut Said<Fired>, fact: &Fact, what: &str) -> Re
         _ => *slot = Some((found, fact.line)),
     }
     Ok(None)
+}
+
+/// Latest firing after time zero, s.
+const LATEST_S: f64 = 1.0;
+
+/// A time within words, `fired at 12 ms`, s.
+fn time_within(text: &str) -> Option<f64> {
+    let words: Vec<&str> = text.split([' ', ',', ':', '(', ')']).filter(|word| !word.is_empty()).collect();
+    let time = |pair: &[&str]| Some(number(pair[0])? * seconds_in(pair[1]).filter(|_| pair[1].len() > 1)?);
+    words.windows(2).find_map(time)
 }
 
 fn vin_in(fact: &Fact) -> Option<String> {

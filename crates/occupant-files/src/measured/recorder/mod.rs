@@ -109,6 +109,17 @@ pub(super) fn read(
     }
     if let Some(event) = &event {
         recording.notes.push(format!("the event is {event}"));
+        let mut others: Vec<&String> =
+            all.iter().filter_map(|fact| fact.event.as_ref()).chain(events.iter().flatten()).collect();
+        others.retain(|other| *other != event);
+        others.sort();
+        others.dedup();
+        recording.notes.extend((!others.is_empty()).then(|| {
+            format!(
+                "what belongs to other events is left out: {}",
+                others.iter().map(|o| o.as_str()).collect::<Vec<_>>().join(", ")
+            )
+        }));
     }
     let table_speed = recorded_speed(&recording);
     let speed = settled_speed(path, &facts, table_speed.as_ref(), hints)?;

@@ -14,6 +14,11 @@ use crash_measures::signal::usual_interval;
 
 /// Largest velocity change of a road vehicle, m/s.
 const MOST_M_S: f64 = 55.0;
+/// Largest speed of a road vehicle, m/s.
+const FASTEST_M_S: f64 = 85.0;
+/// Longest crash pulse, s, and largest acceleration between two rows, m/s².
+const LONGEST_S: f64 = 5.0;
+const STEEPEST_M_S2: f64 = 3000.0;
 /// A slower vehicle stands, m/s.
 const STANDS_M_S: f64 = 5.0 / 3.6;
 /// Velocity changes below are no direction, m/s.
@@ -96,6 +101,7 @@ impl Pulse<'_> {
             recording.notes.extend(note);
         }
         self.cumulate(recording, of_changes)?;
+        of_changes.into_iter().flatten().try_for_each(|i| self.check_times(&recording.signals[i]))?;
         self.check_doubles(recording)?;
         self.check_sizes(recording)?;
         self.check_most(recording, of_changes)?;
@@ -170,6 +176,40 @@ impl Pulse<'_> {
         }
     }
 
+    /// A velocity change begins at 0, and takes the time of a crash.
+    fn check_times(&self, signal: &Signal) -> Result<(), Trouble> {
+        let heading = self.heading(signal);
+        let values = si(signal);
+        let wrong = |found: String, expected: &str| {
+            Err(Trouble::at(self.path, heading.line, found, expected)
+                .hint("correct the unit of time in the heading, or name all columns with their units with --columns"))
+        };
+        let known = || signal.time_s.iter().zip(&values).filter(|(_, v)| v.is_finite());
+        let length_s = last_time(signal) - known().next().map_or(0.0, |(t, _)| *t);
+        if length_s > LONGEST_S {
+            let found = format!("a crash pulse `{}` of {} s", signal.name, number((length_s * 10.0).round() / 10.0));
+            return wrong(found, "at most 5 s");
+        }
+        let pairs = signal.time_s.windows(2).zip(values.windows(2)).filter(|(t, _)| t[1] > t[0]);
+        let steepest = pairs.map(|(t, v)| ((v[1] - v[0]) / (t[1] - t[0])).abs()).filter(|a| a.is_finite());
+        let steepest = steepest.fold(0.0, f64::max);
+        if steepest > STEEPEST_M_S2 {
+            let found =
+                format!("`{}` changes with {} g between two rows", signal.name, number((steepest / 9.806_65).round()));
+            return wrong(found, "at most 300 g");
+        }
+        let peak = extreme(&values).abs();
+        let first = known().next().filter(|(t, v)| **t <= 0.0 && v.abs() > (5.0_f64 / 3.6).max(0.2 * peak));
+        match first {
+            None => Ok(()),
+            Some((t, v)) => {
+                let found = format!("`{}` is already {} km/h at {} s", signal.name, km_h(*v), number(*t));
+                Err(contradiction(self.path, heading.line, &found)
+                    .hint("a cumulative change is 0 at time zero; --delta-v interval sums the rows"))
+            }
+        }
+    }
+
     /// Velocity changes that are given twice, per interval and cumulative, agree.
     fn check_doubles(&self, recording: &Recording) -> Result<(), Trouble> {
         for name in ["dvx", "dvy"] {
@@ -209,7 +249,7 @@ impl Pulse<'_> {
                 .hint("correct the unit in the heading, or name all columns with their units with --columns"));
             }
         }
-        if let Some((speed, words)) = self.speed.as_ref().filter(|(speed, _)| *speed > 100.0 || *speed < -20.0) {
+        if let Some((speed, words)) = self.speed.as_ref().filter(|(speed, _)| *speed > FASTEST_M_S || *speed < -20.0) {
             let found = format!("{words} is {} km/h", km_h(*speed));
             return Err(
                 Trouble::of(self.path, found, "a speed of a road vehicle").hint("correct its unit, or give --speed")

@@ -96,7 +96,8 @@ pub(super) const SEAT: Stems = &[
     "platz",
 ];
 pub(super) const MAXIMUM: Stems = &["max", "peak", "hochst", "gross", "saidai"];
-pub(super) const BRAKE: Stems = &["brake", "bremse", "betriebsbremse", "bremspedal", "frein", "freno", "bureki"];
+pub(super) const BRAKE: Stems =
+    &["brake", "bremse", "betriebsbremse", "bremspedal", "frein", "freno", "bureki", "bureeki"];
 pub(super) const BEFORE: Stems = &["before", "prior to", "vor", "avant", "antes", "mae"];
 pub(super) const PRE_CRASH: Stems = &[
     "pre-crash",
