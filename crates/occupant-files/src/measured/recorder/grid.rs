@@ -151,23 +151,27 @@ fn without_leaders(line: &str) -> String {
     text
 }
 
-/// Whether commas separate cells: most lines that begin with a number have only numbers or words between their commas.
+/// Whether commas separate cells: most lines that begin with a number have only numbers or words between their commas; without such
+/// lines, commas stand without a blank behind them.
 fn is_comma_separated(lines: &[&str]) -> bool {
-    let (mut yes, mut no) = (0, 0);
+    let (mut yes, mut no, mut tight) = (0, 0, 0);
     for line in lines.iter().filter(|line| line.contains(',') && !line.contains(['\t', ';'])) {
         let pieces = split(line, Form::Sign(','));
-        let is_row = pieces.iter().filter(|(_, piece)| number(piece).is_some()).count() > 0 && pieces.len() > 1;
-        let first = line.trim_start().trim_start_matches('"');
-        if !first.starts_with(|c: char| c.is_ascii_digit() || "-+.,\u{2212}".contains(c)) {
-            continue;
-        }
+        let numbers = pieces.iter().filter(|(_, piece)| number(piece).is_some()).count();
         let sound = |(_, piece): &(usize, String)| {
             is_missing(piece) || number(piece).is_some() || !piece.contains(|c: char| c.is_ascii_digit())
         };
-        if is_row && pieces.iter().all(sound) { yes += 1 } else { no += 1 }
+        let is_sound = numbers > 0 && pieces.len() > 1 && pieces.iter().all(sound);
+        tight += usize::from(!line.contains(", ") || line.contains('"'));
+        let first = line.trim_start().trim_start_matches('"');
+        if first.starts_with(|c: char| c.is_ascii_digit() || "-+.,\u{2212}".contains(c)) {
+            if is_sound { yes += 1 } else { no += 1 }
+        } else if is_sound && numbers > 2 {
+            // times may stand across
+            yes += 1;
+        }
     }
-    yes > no
-        || (yes == 0 && no == 0 && lines.iter().filter(|line| line.contains(",\"") || line.contains("\",")).count() > 1)
+    yes > no || (yes == 0 && no == 0 && tight > 1)
 }
 
 /// Cells of a line with the characters at which they begin.

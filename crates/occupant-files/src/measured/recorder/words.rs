@@ -449,8 +449,7 @@ pub(super) fn state(text: &str) -> Option<bool> {
     if has(&text, UNKNOWN) || placed_text::is_missing(&text) {
         return None;
     }
-    let words: Vec<&str> =
-        text.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let any = |of: &[&str]| words.iter().any(|word| of.contains(word));
     if any(NO) {
         return Some(false);
