@@ -275,8 +275,10 @@ fn recorders_signs_units_and_beginnings_are_asked_for_or_said() {
     );
     done(here, &["check", "loss.toml"]);
     fs::write(here.join("gain.csv"), format!("Time (msec),Delta-V longitudinal (MPH)\n{}", rows(1.0))).unwrap();
-    let said = spoken(here, &["import", "gain.csv", "--speed", "29 mph"]);
-    assert!(said.contains("gains 43.5 km/h") && said.contains("-dvx"), "{said}");
+    let said = spoken(here, &["import", "gain.csv"]);
+    assert!(said.contains("gains 43.5 km/h") && said.contains("-dvx") && said.contains("--struck front"), "{said}");
+    let asked = answer(here, &["import", "gain.csv", "--speed", "29 mph", "-f"]);
+    assert!(asked.status.code() == Some(2) && err(&asked).contains("--struck front"), "{}", err(&asked));
     spoken(here, &["import", "gain.csv", "--speed", "29 mph", "-f", "--columns", "t[ms],-dvx[mph]"]);
     let table = |name: &str| fs::read_to_string(here.join(name)).unwrap().replace("MPH", "mph");
     assert_eq!(table("gain-path.csv"), table("loss-path.csv"));

@@ -15,6 +15,7 @@ mod optimise;
 mod pages;
 mod pictures;
 mod print;
+mod recorders;
 mod recording;
 mod records;
 mod risk;

@@ -73,6 +73,9 @@ pub(crate) fn files() -> tempfile::TempDir {
     fs::write(here.join("log.csv"), log).unwrap();
     let changes: String = (0..16).map(|i| format!("{};{},5\n", 10 * i, -3 * i)).collect();
     fs::write(here.join("recorder.csv"), format!("Time (ms);Delta-V longitudinal (km/h)\n{changes}")).unwrap();
+    let report =
+        "Impact: frontal\nDriver belt: Buckled\n\nTime (ms),Delta-V longitudinal (km/h)\n0,0\n50,20\n100,41\n150,41\n";
+    fs::write(here.join("report.csv"), report).unwrap();
     let clock = rows(|t| format!("{};10:00;{:.4};0\n", t * 1e3, -20.0 * pulse(t)));
     fs::write(here.join("clock.csv"), format!("zeit;clock;long;gier\n{clock}")).unwrap();
     folder
@@ -84,7 +87,7 @@ pub(crate) fn files() -> tempfile::TempDir {
 fn the_commands_of_the_page_run() {
     let folder = files();
     let page = include_str!("../docs/records.md");
-    assert_eq!(run_page(folder.path(), page), 9);
+    assert_eq!(run_page(folder.path(), page), 11);
     let section = page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
     let rec_tec = "Time,XPos,YPos,ZPos,Pitch,Roll,Yaw\n0,0,0,0,0,0,0\n1,10,0,0,0,0,10\n2,20,0,0,0,0,20\n";
     fs::write(folder.path().join("rec-tec.csv"), rec_tec).unwrap();

@@ -114,7 +114,7 @@ pub use places::{Place, Wanted};
 pub use presets::preset_body;
 pub use sections::{
     Angle, Drawing, DrivenVehicle, Drives, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile,
-    Scenario, Solved, Time, column_in, column_named, drawings, moving_rails, read_record, schema, speed_named,
+    Scenario, Solved, Time, column_in, column_named, drawings, folded, moving_rails, read_record, schema, speed_named,
     surface_schema,
 };
 pub use surface_files::check_surface;

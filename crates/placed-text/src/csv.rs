@@ -110,7 +110,7 @@ impl Separator {
 }
 
 /// Words for a missing value.
-const MISSING: [&str; 17] = [
+const MISSING: [&str; 32] = [
     "",
     "-",
     "--",
@@ -128,6 +128,21 @@ const MISSING: [&str; 17] = [
     "not available",
     "data not available",
     "not recorded",
+    "unknown",
+    "–",
+    "—",
+    "\u{2212}",
+    "n.a.",
+    "n.v.",
+    "n.d.",
+    "k.a.",
+    "s/d",
+    "n/d",
+    "unbekannt",
+    "nicht verfügbar",
+    "non disponible",
+    "no disponible",
+    "fumei",
 ];
 
 /// Whether a cell marks a missing value.

@@ -6,7 +6,7 @@ use occupant_scenario::kind::{FREQUENCY, KINDS, LENGTH, SPEED, TIME};
 
 use super::flags::history::{WindowArgs, interval};
 use crate::base::{Failure, ending, file_name, file_stem, note, one_of, publish, quoted, refuse_input, say};
-use occupant_files::measured::{self, AXES, Axes, Imported, Reading};
+use occupant_files::measured::{self, AXES, Axes, DELTA_V, DeltaV, Fired, Hints, Imported, Reading, Report, SIDES};
 use occupant_jobs::import::{Made, PathFilter, PathTable, Request, import as made};
 
 /// Make a scenario from a crash test, an event data recorder or a simulated path
@@ -55,6 +55,18 @@ pub(crate) struct Args {
     #[arg(long, value_name = "AXES", value_parser = one_of(&AXES))]
     axes: Option<Axes>,
 
+    /// Which event of a recorder's report, if it has several
+    #[arg(long, value_name = "EVENT")]
+    event: Option<String>,
+
+    /// Where the vehicle was struck; gives the velocity changes of a recorder their signs, if its report prints magnitudes
+    #[arg(long, value_name = "SIDE", value_delimiter = ',', value_parser = one_of(&SIDES))]
+    struck: Vec<[i8; 2]>,
+
+    /// Whether the velocity changes of a recorder are cumulative or per interval, if its report leaves it open
+    #[arg(long, value_name = "KIND", value_parser = one_of(&DELTA_V))]
+    delta_v: Option<DeltaV>,
+
     /// Fill gaps up to this length linearly, such as '5 ms'; gaps are an error if absent
     #[arg(long, value_name = "TIME", value_parser = interval)]
     bridge: Option<f64>,
@@ -82,7 +94,15 @@ pub(crate) struct Args {
 
 pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     let name = args.output.clone().unwrap_or_else(|| Path::new(&stem(&args.source)).with_extension("toml"));
-    let reading = Reading { vehicle: args.vehicle, object: args.object.as_deref(), columns: args.columns.as_deref() };
+    let sides = |sum: [i8; 2], side: &[i8; 2]| [sum[0] + side[0], sum[1] + side[1]];
+    let hints = Hints {
+        event: args.event.as_deref(),
+        struck: (!args.struck.is_empty()).then(|| args.struck.iter().fold([0, 0], sides)),
+        delta_v: args.delta_v,
+        speed_m_s: args.speed.as_deref().and_then(|speed| KINDS[SPEED].read(speed).ok()),
+    };
+    let columns = args.columns.as_deref();
+    let reading = Reading { vehicle: args.vehicle, object: args.object.as_deref(), columns, hints: Some(hints) };
     let imported = measured::import(&args.source, reading)?;
     let made = made(
         &imported,
@@ -99,7 +119,7 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     )?;
     made.notes.iter().for_each(note);
     // curves under the names of channels are of use alone
-    let has_channels = imported.recording.signals.iter().any(|signal| signal.name.contains('.'));
+    let has_channels = imported.recording.signals.iter().any(|signal| is_channel(&signal.name));
     if made.path.is_none() && is_table(&args.source) && !has_channels {
         return Err(Failure::plain(format!(
             "{} contains no vehicle motion: nothing was written",
@@ -109,9 +129,17 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     write(args, &name, &imported, &made)
 }
 
+/// Whether a name is that of a channel, `head.acceleration.x`, and no abbreviation.
+fn is_channel(name: &str) -> bool {
+    let is_word = |word: &str| {
+        word.starts_with(char::is_alphabetic) && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+    };
+    name.contains('.') && name.split('.').all(is_word)
+}
+
 /// Whether the source is a single table, which is useless without a path.
 fn is_table(source: &Path) -> bool {
-    !source.is_dir() && matches!(ending(source).as_str(), "csv" | "txt" | "tsv" | "asc" | "dat")
+    !source.is_dir() && matches!(ending(source).as_str(), "csv" | "txt" | "tsv" | "asc" | "dat" | "xlsx")
 }
 
 /// A low-pass filter as text.
@@ -159,8 +187,9 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
         let text = scenario(&args.source, imported, path, &file_name(&path_file));
         publish(name, args.force, text.as_bytes())?;
         let [from_s, to_s] = path.run_s.map(placed_text::number);
+        let who = if is_belted(&imported.report) { "a belted" } else { "an unbelted" };
         say(&format!(
-            "wrote {}: a belted driver in a generic car on that path, from {from_s} s to {to_s} s (--from and --to select a part)",
+            "wrote {}: {who} driver in a generic car on that path, from {from_s} s to {to_s} s (--from and --to select a part)",
             name.display()
         ));
     }
@@ -198,5 +227,45 @@ fn scenario(source: &Path, imported: &Imported, path: &PathTable, file: &str) ->
     let begin = if from_s == 0.0 { String::new() } else { format!("start = {from_s:?}\n") };
     let time = format!("[time]                      # all of the path\n{begin}end = {to_s:?}                   # s\n");
     let section = format!("{time}\n[path]\n{keys}\nfile = {}\n", text(file));
-    occupant_jobs::templates::with_path(&text(&title), &text(&origin), &section)
+    with_report(&occupant_jobs::templates::with_path(&text(&title), &text(&origin), &section), &imported.report)
+}
+
+fn is_belted(report: &Report) -> bool {
+    report.belt.is_none_or(|(worn, _)| worn)
+}
+
+/// The scenario with what the report of a recorder says about belt and bag.
+fn with_report(scenario: &str, report: &Report) -> String {
+    let seat = "[car.seats.driver]\n";
+    let mut text = scenario.to_owned();
+    let put = |text: &str, after: &str, line: String| text.replacen(after, &format!("{after}{line}"), 1);
+    if let Some((worn, line)) = report.belt {
+        let kind = if worn { "three_point" } else { "none" };
+        let said = if worn { "fastened" } else { "not fastened" };
+        text = put(&text, seat, format!("belt = \"{kind}\"        # recorder, line {line}: {said}\n"));
+    }
+    let is_worn = is_belted(report);
+    if !is_worn {
+        text = text.replacen("# A belted driver", "# An unbelted driver", 1);
+    }
+    if let Some((Fired::No, line)) = report.pretensioner {
+        text = put(&text, "pretensioner = \"100 mm\"", format!(" # recorder, line {line}: not fired, so set to 0\n"));
+        text = text.replacen("pretensioner = \"100 mm\" #", "pretensioner = \"0 mm\" #", 1);
+    }
+    if let Some((Fired::No, line)) = report.bag {
+        text += &format!("\n[car.bags]\ndriver = false              # recorder, line {line}: not fired\n");
+    }
+    let at = |name: &str, time_s: f64, line: usize, device: &str| {
+        let ms = placed_text::number((time_s * 1e6).round() / 1e3);
+        format!(
+            "\n[triggers.{name}]           # recorder, line {line}\nkind = \"time\"\nat = \"{ms} ms\"\n\n[{device}]\ntrigger = \"{name}\"\ndelay = 0\n"
+        )
+    };
+    if let Some((Fired::At(time_s), line)) = report.bag {
+        text += &at("recorded_bag", time_s, line, "bags.driver");
+    }
+    if let Some((Fired::At(time_s), line)) = report.pretensioner.filter(|_| is_worn) {
+        text += &at("recorded_pretensioner", time_s, line, "retractors.driver.pretensioner");
+    }
+    text
 }

@@ -7,9 +7,11 @@ mod doubts;
 mod motion;
 mod nhtsa;
 mod pair;
+mod recorder;
 mod table;
 mod tdms;
 mod trajectory;
+mod xlsx;
 
 use std::path::Path;
 
@@ -25,6 +27,7 @@ pub use doubts::{Known, doubts, rounded_table};
 pub use motion::{Motion, MotionKind, Placed};
 pub use nhtsa::TestRecord;
 pub use pair::{MapArgument, Pair, Wanted, pairs};
+pub use recorder::{DELTA_V, DeltaV, Fired, Hints, Report, SIDES, recorded_speed};
 
 /// Whether a file or folder contains measured signals instead of the results of a run.
 pub fn is_recording(path: &Path) -> bool {
@@ -40,6 +43,8 @@ pub struct Imported {
     pub recording: Recording,
     /// Direction of its axes, if the format defines it.
     pub axes: Option<Axes>,
+    /// What the report of a recorder says beside its motion.
+    pub report: Report,
 }
 
 /// Choices where a file has several vehicles, or does not define its columns.
@@ -51,6 +56,8 @@ pub struct Reading<'a> {
     pub object: Option<&'a str>,
     /// Names and units of a table's columns, instead of its headings.
     pub columns: Option<&'a str>,
+    /// What the user says about a recorder's report; none if a table is not read as one.
+    pub hints: Option<Hints<'a>>,
 }
 
 /// Reads a test or a trajectory in any format.
@@ -58,25 +65,36 @@ pub struct Reading<'a> {
 /// # Errors
 /// As [`read`].
 pub fn import(path: &Path, reading: Reading) -> Result<Imported, Failure> {
-    let Reading { vehicle, object, columns } = reading;
+    let Reading { vehicle, object, columns, hints } = reading;
     if columns.is_some() {
         trajectory::one_vehicle(path, vehicle)?;
         let recording = table_of(path, columns)?;
-        return Ok(Imported { record: TestRecord::default(), recording, axes: None });
+        let report = match hints.filter(|_| is_text(path)) {
+            Some(hints) => recorder::beside(path, &text_of(path)?.0, hints, &recording.sha256)?,
+            None => Report::default(),
+        };
+        return Ok(Imported { record: TestRecord::default(), recording, axes: None, report });
     }
     if let Some(header) = nhtsa::header(path) {
         let (record, recording) = nhtsa::read(&header, vehicle.unwrap_or(1))?;
-        return Ok(Imported { record, recording, axes: Some(Axes::ZDown) });
+        return Ok(Imported { record, recording, axes: Some(Axes::ZDown), report: Report::default() });
     }
     let trajectory = if path.is_dir() { None } else { trajectory::read(path, vehicle, object)? };
     if trajectory.is_none() {
         trajectory::one_vehicle(path, vehicle)?;
     }
+    if let Some(hints) = hints.filter(|_| trajectory.is_none() && is_text(path)) {
+        let (text, bytes, encoding) = text_of(path)?;
+        if let Some((mut recording, report)) = recorder::read(path, &text, hints, &sha256(&bytes))? {
+            recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));
+            return Ok(Imported { record: TestRecord::default(), recording, axes: None, report });
+        }
+    }
     let (recording, axes) = match trajectory {
         Some((recording, axes)) => (recording, Some(axes)),
         None => (read(path)?, (path.is_dir() || ending(path) == "mme").then_some(Axes::ZDown)),
     };
-    Ok(Imported { record: TestRecord::default(), recording, axes })
+    Ok(Imported { record: TestRecord::default(), recording, axes, report: Report::default() })
 }
 
 /// Reads a text table (.csv, .txt, .tsv), an ISO-MME test (its folder, or the .mme file in it) or a test of NHTSA (its folder, or the
@@ -115,13 +133,42 @@ fn refuse_own(path: &Path) -> Result<(), Failure> {
     }
 }
 
-fn table_of(path: &Path, columns: Option<&str>) -> Result<Recording, Failure> {
+/// Whether a file is a text or a workbook.
+fn is_text(path: &Path) -> bool {
+    !path.is_dir() && !matches!(ending(path).as_str(), "mme" | "tdms")
+}
+
+/// The text of a file or workbook, its bytes, and its encoding if it is not UTF-8.
+fn text_of(path: &Path) -> Result<(String, Vec<u8>, Option<&'static str>), Failure> {
     let bytes = input_file::read(path)?;
     refuse_own(path)?;
+    if xlsx::is_archive(&bytes) {
+        let text = xlsx::text(&bytes).map_err(|found| {
+            Trouble::of(
+                path,
+                format!("a ZIP archive that is no workbook: {found}"),
+                "a workbook (XLSX) or a text table",
+            )
+            .hint("save it as XLSX or CSV")
+        })?;
+        return Ok((text, bytes, None));
+    }
+    let other = [
+        (&b"%PDF"[..], "a PDF file", "copy its text into a file NAME.txt"),
+        (b"\xd0\xcf\x11\xe0", "an old workbook (XLS)", "save it as XLSX or CSV"),
+    ];
+    if let Some((_, found, help)) = other.iter().find(|(mark, ..)| bytes.starts_with(mark)) {
+        return Err(Trouble::of(path, *found, "a text table or a workbook (XLSX)").hint(*help).into());
+    }
     let (text, encoding) = decoded(&bytes).map_err(|found| {
         Trouble::of(path, found, "a text table")
             .hint("give a CSV table, an ISO-MME test (.mme) or an NHTSA test (.EV5)")
     })?;
+    Ok((text, bytes, encoding))
+}
+
+fn table_of(path: &Path, columns: Option<&str>) -> Result<Recording, Failure> {
+    let (text, bytes, encoding) = text_of(path)?;
     let mut recording = table::read(path, &text, columns, sha256(&bytes))?;
     recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));
     Ok(recording)

@@ -287,7 +287,8 @@ fn at_times(signal: &Signal, time_s: &[f64]) -> Vec<f64> {
     time_s.iter().map(|t_s| value(t_s).unwrap_or(f64::NAN)).collect()
 }
 
-fn is_named(signal: &Signal, name: &str) -> bool {
+/// Whether a signal is a column of this name.
+pub(super) fn is_named(signal: &Signal, name: &str) -> bool {
     match signal.scale {
         _ if signal.name == name => true,
         Some(scale) => column_in(&signal.name, scale.dimension) == Some(name),

@@ -1,14 +1,12 @@
 //! The section of a scenario that makes a path of the recorded motion, and its table.
 
 use crash_measures::signal::{STANDARD_GRAVITY_MPS2, usual_interval};
-use occupant_scenario::speed_named;
-use occupant_units::unit::Unit;
 
 use super::Request;
 use super::curves::written;
 use crate::base::Failure;
-use occupant_files::measured::{Axes, Imported, Known, Motion, MotionKind, Placed, doubts};
-use occupant_files::signals::{Recording, Signal};
+use occupant_files::measured::{Axes, Imported, Known, Motion, MotionKind, Placed, doubts, recorded_speed};
+use occupant_files::signals::Recording;
 
 /// A vehicle's path as a table and the section of a scenario that reads it.
 #[derive(Debug)]
@@ -154,9 +152,15 @@ fn keys_of_sensors(
     let text = |words: &str| toml_edit::Value::from(words).to_string();
     let known = imported.record.speed_km_h.map(|speed| format!("{speed} km/h"));
     let recorded = || {
-        let (name, t_s, speed_m_s) = recorded_speed(&imported.recording)?;
+        let of_impact =
+            imported.report.speed_m_s.map(|(speed, line)| (format!("the speed at impact of line {line}"), speed));
+        let before = || {
+            let (name, t_s, speed_m_s) = recorded_speed(&imported.recording)?;
+            Some((format!("{name} at {} s", placed_text::number(t_s)), speed_m_s))
+        };
+        let (words, speed_m_s) = of_impact.or_else(before)?;
         let speed = format!("{} km/h", placed_text::number((speed_m_s * 3.6e3).round() / 1e3));
-        notes.push(format!("`speed` is {name} at {} s, {speed}; change it with --speed", placed_text::number(t_s)));
+        notes.push(format!("`speed` is {words}, {speed}; change it with --speed"));
         Some(speed)
     };
     if let Some(Err(found)) = request.speed.map(super::speed) {
@@ -198,16 +202,6 @@ fn keys_of_sensors(
     );
     keys.push("after = \"coast\"             # beyond the last row".to_owned());
     Ok((keys, speed_m_s))
-}
-
-/// Speed recorded before the crash: its name, and the last value at or before time zero, m/s.
-fn recorded_speed(recording: &Recording) -> Option<(&str, f64, f64)> {
-    let speed = Unit::MetrePerSecond.dimension();
-    let is_speed = |signal: &&Signal| speed_named(&signal.name) && signal.scale.is_some_and(|s| s.dimension == speed);
-    let signal = recording.signals.iter().find(is_speed)?;
-    let mut told = signal.time_s.iter().zip(&signal.values).filter(|(t, v)| **t <= 0.0 && v.is_finite());
-    let (t_s, value) = told.next_back()?;
-    Some((&signal.name, *t_s, value * signal.scale?.factor))
 }
 
 fn other_filter(expected: &str) -> Failure {

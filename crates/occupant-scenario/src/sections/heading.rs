@@ -5,34 +5,30 @@ use occupant_units::unit::{Dimension, Unit};
 /// Quantities in headings, and the words for them.
 type Sense = (&'static str, &'static [&'static str]);
 
-/// The quantity, the direction, words for both, and words that carry no information.
-const SENSES: [Sense; 25] = [
-    ("t", &["time", "t", "zeit", "temps", "tiempo", "tempo", "times"]),
-    ("d", &["delta", "deltav", "dv", "δv", "change", "cumulative", "änderung", "aenderung", "variation", "cambio"]),
-    ("v", &["v", "velocity", "speed", "vitesse", "velocidad", "geschwindigkeit"]),
-    ("dv", &["geschwindigkeitsänderung", "geschwindigkeitsaenderung"]),
-    (
-        "a",
-        &[
-            "acceleration",
-            "accel",
-            "acc",
-            "a",
-            "beschleunigung",
-            "beschl",
-            "accélération",
-            "aceleración",
-            "accelerometer",
-        ],
-    ),
+/// The quantity, the direction, words for both, and words that carry no information: English, German, French, Spanish,
+/// romanised Japanese, without accents ([`folded`]).
+#[rustfmt::skip]
+const SENSES: [Sense; 26] = [
+    ("t", &["time", "t", "zeit", "zeitpunkt", "temps", "tiempo", "tempo", "times", "jikan", "jikoku"]),
+    ("d", &["delta", "deltav", "dv", "δv", "δ", "change", "cumulative", "cumulated", "cum", "anderung", "aenderung", "kumuliert",
+        "kumulierte", "kumulativ", "variation", "cumulee", "cumule", "cambio", "variacion", "acumulado", "acumulada", "henka", "henkaryo", "ruiseki",
+        "deruta"]),
+    ("v", &["v", "velocity", "speed", "vitesse", "velocidad", "geschwindigkeit", "geschw", "vel", "fahrzeuggeschwindigkeit", "fahrgeschwindigkeit",
+        "sokudo", "sharyosokudo", "shasoku"]),
+    ("dv", &["geschwindigkeitsanderung", "geschwindigkeitsaenderung", "sokudohenka"]),
+    ("a", &["acceleration", "accel", "acc", "a", "beschleunigung", "beschl", "aceleracion", "accelerometer", "kasokudo"]),
     ("w", &["rate", "angular", "omega", "gyro", "winkelgeschwindigkeit", "drehrate"]),
-    ("x", &["longitudinal", "long", "x", "xpos", "xo", "xcg", "längs", "laengs", "longitudinale"]),
-    ("y", &["lateral", "lat", "y", "ypos", "yo", "ycg", "quer", "latérale", "transversal"]),
-    ("z", &["vertical", "vert", "z", "zpos", "zo", "zcg", "vertikal", "verticale"]),
+    ("x", &["longitudinal", "long", "x", "xpos", "xo", "xcg", "langs", "laengs", "langsrichtung", "laengsrichtung", "longitudinale",
+        "zengo"]),
+    ("y", &["lateral", "lat", "y", "ypos", "yo", "ycg", "quer", "querrichtung", "laterale", "transversal", "transversale", "sayu",
+        "sayuu"]),
+    ("z", &["vertical", "vert", "z", "zpos", "zo", "zcg", "vertikal", "verticale", "joge", "jouge"]),
     ("p", &["roll", "phi", "wanken", "wankwinkel", "rollwinkel", "roulis"]),
     ("q", &["pitch", "theta", "nicken", "nickwinkel", "tangage"]),
     ("r", &["yaw", "psi", "heading", "gier", "gieren", "gierwinkel", "lacet"]),
-    ("ax", &["ax", "accx", "xacc", "longacc", "längsbeschl", "längsbeschleunigung", "laengsbeschleunigung"]),
+    ("vx", &["vx"]),
+    ("vy", &["vy"]),
+    ("ax", &["ax", "accx", "xacc", "longacc", "langsbeschl", "langsbeschleunigung", "laengsbeschleunigung"]),
     ("ay", &["ay", "accy", "yacc", "latacc", "querbeschl", "querbeschleunigung"]),
     ("az", &["az", "accz", "zacc", "vertacc", "vertikalbeschleunigung", "hochbeschleunigung"]),
     ("wx", &["wx", "avx", "gyrox", "omegax"]),
@@ -41,53 +37,13 @@ const SENSES: [Sense; 25] = [
     ("pw", &["rollrate", "wankrate"]),
     ("qw", &["pitchrate", "nickrate"]),
     ("rw", &["yawrate", "gierrate"]),
-    ("dvx", &["dvx"]),
-    ("dvy", &["dvy"]),
-    (
-        "",
-        &[
-            "in",
-            "of",
-            "the",
-            "vehicle",
-            "cg",
-            "event",
-            "crash",
-            "position",
-            "angle",
-            "axis",
-            "direction",
-            "sensor",
-            "center",
-            "centre",
-            "tm",
-            "pulse",
-            "sdm",
-            "recorded",
-            "indicated",
-            "pre",
-            "precrash",
-        ],
-    ),
-    (
-        "",
-        &[
-            "gravity",
-            "cog",
-            "c",
-            "g",
-            "vehicle's",
-            "car",
-            "body",
-            "chassis",
-            "raw",
-            "filtered",
-            "channel",
-            "der",
-            "des",
-            "schwerpunkt",
-        ],
-    ),
+    ("dvx", &["dvx", "δvx", "deltavx"]),
+    ("dvy", &["dvy", "δvy", "deltavy"]),
+    ("", &["in", "of", "the", "vehicle", "cg", "event", "crash", "position", "angle", "axis", "direction", "sensor", "center",
+        "centre", "tm", "pulse", "sdm", "recorded", "indicated", "pre", "precrash", "gravity", "cog", "c", "g", "vehicle's", "car",
+        "body", "chassis", "raw", "filtered", "channel", "der", "des", "schwerpunkt", "richtung", "fzg", "kfz", "veh", "ryo", "ryou", "fahrzeug", "angezeigt", "angezeigte",
+        "de", "du", "la", "le", "l", "vehicule", "indiquee", "direccion", "del", "el", "vehiculo", "indicada", "houkou", "hoko",
+        "sharyo", "sharyou", "no"]),
 ];
 
 /// Meaning that the unit of a column adds to its words: `X (g)` is an acceleration, `Roll (deg/s)` a rate.
@@ -166,9 +122,38 @@ fn dimension(column: &str) -> Dimension {
     .dimension()
 }
 
+/// Text in small letters without accents, for comparison of words: `Längs` and `La\u{308}ngs` are `langs`.
+pub fn folded(text: &str) -> String {
+    const PLAIN: [(&str, &str); 14] = [
+        ("äàâáãå", "a"),
+        ("éèêë", "e"),
+        ("íìîïī", "i"),
+        ("öóòôõō", "o"),
+        ("üúùûū", "u"),
+        ("ā", "a"),
+        ("ē", "e"),
+        ("ñ", "n"),
+        ("ç", "c"),
+        ("ß", "ss"),
+        ("œ", "oe"),
+        ("æ", "ae"),
+        ("ÿ", "y"),
+        ("∆", "δ"),
+    ];
+    let mut plain = String::with_capacity(text.len());
+    // accents that stand alone are left out
+    for c in text.chars().flat_map(char::to_lowercase).filter(|c| !('\u{300}'..='\u{36f}').contains(c)) {
+        match PLAIN.iter().find(|(of, _)| of.contains(c)) {
+            Some((_, letters)) => plain.push_str(letters),
+            None => plain.push(c),
+        }
+    }
+    plain
+}
+
 /// The meanings of a heading, sorted; none if a word is unknown. Numbers of channels and filter classes are ignored.
 fn senses(text: &str) -> Option<String> {
-    let text = text.to_lowercase();
+    let text = folded(text);
     let words = text.split(|c: char| !(c.is_alphanumeric() || c == '\'')).filter(|word| !word.is_empty());
     let says_nothing = |word: &str| word.strip_prefix("cfc").unwrap_or(word).bytes().all(|b| b.is_ascii_digit());
     let sense = |word: &str| match says_nothing(word) {
@@ -216,11 +201,24 @@ mod tests {
             ("PSI", Some("yaw")),
             ("AVz", Some("wz")),
             ("Xcg_TM", Some("x")),
+            ("ΔVx", Some("dvx")),
+            ("∆v längs", Some("dvx")),
+            ("Geschwindigkeitsänderung in Querrichtung", Some("dvy")),
+            ("Variation de vitesse latérale", Some("dvy")),
+            ("Variación de velocidad longitudinal", Some("dvx")),
+            ("Sokudo henka (zengo)", Some("dvx")),
+            ("Zengo kasokudo", Some("ax")),
+            ("Jikan", Some("t")),
+            ("La\u{308}ngsbeschl.", Some("ax")),
+            ("vx", None),
             ("Vehicle speed", None),
             ("Engine rpm", None),
             ("", None),
         ] {
             assert_eq!(heading(text), column, "{text}");
+        }
+        for text in ["Fahrzeuggeschwindigkeit", "Vitesse du véhicule", "Velocidad del vehículo", "Sharyō sokudo"] {
+            assert!(speed_named(text), "{text}");
         }
         assert!(speed_named("Vehicle speed") && speed_named("Speed, Vehicle Indicated") && !speed_named("Delta-V"));
         assert!(COLUMNS.iter().all(|(senses, _)| senses.chars().is_sorted()));

@@ -53,7 +53,7 @@ use serde::{Deserialize, Serialize};
 
 pub use drive::{Drawing, DrivenVehicle, Drives, Solved, drawings, moving_rails};
 pub(super) use drive::{People, Pushers, asks_for_people, caveats, solve};
-pub use heading::{heading as column_named, heading_in as column_in, speed_named};
+pub use heading::{folded, heading as column_named, heading_in as column_in, speed_named};
 pub(super) use many::together;
 pub(super) use quantity::si_or;
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};

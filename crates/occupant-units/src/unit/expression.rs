@@ -65,8 +65,25 @@ pub fn parse_heading(text: &str) -> Result<Scale, UnitError> {
             usual.push_str(usual_writing(of_many.unwrap_or(word)).unwrap_or(word));
             rest = &rest[length..];
         }
-        parse(&usual, 0).map_err(|_| error)
+        parse(&usual, 0).or_else(|_| spelled(&plain).map_or(Err(error), |unit| parse(unit, 0)))
     })
+}
+
+/// Units that headings write out, and their short form.
+#[rustfmt::skip]
+const SPELLED: [(&str, &[&str]); 6] = [
+    ("ms", &["millisecond", "milliseconds", "millisec", "millisekunden", "millisekunde", "milliseconde", "millisecondes", "milisegundos",
+        "milisegundo", "miribyo", "miribyou"]),
+    ("s", &["secs", "sekunden", "sekunde", "sek", "seconde", "secondes", "segundos", "segundo", "seg", "byo", "byou"]),
+    ("mph", &["mi/hr", "miles per hour", "miles/h", "miles/hour", "mile/h", "m.p.h"]),
+    ("km/h", &["km/hr", "km per hour", "kilometers per hour", "kilometres per hour", "stundenkilometer", "k.p.h", "km/std", "km / h"]),
+    ("m/s", &["meters per second", "metres per second", "m/sek", "m/seg"]),
+    ("m/s^2", &["m/s/s", "m/sek^2", "m/sek2", "m/sec2", "m/sec^2", "m/s²"]),
+];
+
+fn spelled(unit: &str) -> Option<&'static str> {
+    let unit = unit.trim().to_lowercase();
+    SPELLED.iter().find(|(_, names)| names.contains(&unit.as_str())).map(|(short, _)| *short)
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -258,6 +275,9 @@ mod tests {
             ("m/(s*s)", "m/s^2"),
             ("KN", "kN"),
             ("RAD/S", "rad/s"),
+            ("Millisekunden", "ms"),
+            ("miles per hour", "mph"),
+            ("km/hr", "km/h"),
         ] {
             assert_eq!(parse_heading(written).ok(), parse(usual, 0).ok(), "{written}");
             assert!(parse(usual, 0).is_ok());

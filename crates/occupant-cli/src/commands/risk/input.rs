@@ -148,7 +148,7 @@ fn motion(args: &Args, name: &str, notes: &mut Vec<String>) -> Result<(Motion, A
             )
         })
     });
-    let reading = Reading { vehicle: vehicle.transpose()?, object: None, columns: args.columns.as_deref() };
+    let reading = Reading { vehicle: vehicle.transpose()?, columns: args.columns.as_deref(), ..Reading::default() };
     let imported = measured::import(&args.file, reading)?;
     notes.extend(imported.recording.notes.iter().cloned());
     let placed = Placed { at: args.at.as_deref(), bridge_s: args.bridge };

@@ -121,7 +121,7 @@ fn gains_speed(changes: &[f64]) -> Option<String> {
     let least = changes.iter().copied().fold(0.0, f64::min);
     (most > 1.5 && least > -0.1 * most).then(|| {
         format!(
-            "the vehicle gains {} km/h, as in a rear impact. If the table gives a loss of speed as a positive number, reverse its sign with --columns, such as 't[ms],-dvx[km/h]'",
+            "the vehicle gains {} km/h, as in a rear impact. If the table gives a loss of speed as a positive number, use --struck front, or reverse its sign with --columns, such as 't[ms],-dvx[km/h]'",
             number((most * 36.0).round() / 10.0)
         )
     })
