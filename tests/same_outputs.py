@@ -160,7 +160,7 @@ NEUTRAL = [
     (rb"[0-9.]+ s of wall time", b"TIME s of wall time"),
     (rb"samples in [0-9.]+ s,", b"samples in TIME s,"),
     (rb"(?m)^[0-9]+ (evaluations, .*: score |of [0-9]+ samples, ).*\n", b""),  # reported every few seconds
-    (rb"[0-9.]+ times the plain run for", b"RATIO times the plain run for"),
+    (rb"[0-9.]+ times the plain run,? for", b"RATIO times the plain run for"),
     (rb'"plain_run_s": [0-9.e-]+', b'"plain_run_s": TIME'),
     (rb'"run_in_duals_s": [0-9.e-]+,\s+"ratio": [0-9.e-]+', b'"run_in_duals_s", "ratio": TIME'),
 ]

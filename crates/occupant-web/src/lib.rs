@@ -28,6 +28,7 @@
 #[cfg(target_family = "wasm")]
 mod abi;
 mod case;
+mod import;
 mod knobs;
 mod run;
 mod study;
@@ -70,6 +71,12 @@ enum Request {
     },
     Open {
         name: String,
+    },
+    Import {
+        name: String,
+        /// Sides of the vehicle that were struck.
+        #[serde(default)]
+        struck: Vec<String>,
     },
     Study {
         case: Case,
@@ -117,6 +124,7 @@ fn meet(request: Request, file: &[u8], told: &mut dyn FnMut(f64)) -> Result<Answ
         Request::Measure { case } => Answer::of(&study::measured(&case)?),
         Request::Write { case } => Answer::of(&Written { text: case.written()? }),
         Request::Open { name } => Answer::of(&run::opened(&name, file)?),
+        Request::Import { name, struck } => Answer::of(&import::imported(&name, file, &struck)?),
         Request::Save { case } => Answer { json: "{}".to_owned(), bytes: run::saved(&case, told)? },
     })
 }

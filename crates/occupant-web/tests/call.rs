@@ -138,3 +138,27 @@ fn nothing_that_is_asked_breaks_the_page() {
         }
     }
 }
+
+/// A recorder's report becomes a case that runs; one that leaves the side open says so.
+#[test]
+fn a_report_of_a_recorder_becomes_a_case() {
+    let import = |name: &str, bytes: &[u8], struck: &[&str]| -> Value {
+        let request = json!({"do": "import", "name": name, "struck": struck});
+        serde_json::from_str(&call(&request.to_string(), bytes, &mut |_| ()).json).unwrap()
+    };
+    let report = include_bytes!("../../occupant-cli/tests/data/recorders/german.csv");
+    let made = import("german.csv", report, &[]);
+    assert!(made["refused"].is_null(), "{}", made["refused"]);
+    assert!(made["notes"].as_array().is_some_and(|notes| !notes.is_empty()));
+    let (checked, _) = ask(&json!({"do": "check", "case": made["case"]}));
+    let problems = checked["problems"].as_array().unwrap();
+    assert!(problems.iter().all(|problem| problem["is_error"] == false), "{problems:?}");
+    let (ran, _) = ask(&json!({"do": "run", "case": made["case"], "channels": ["vehicle.x"]}));
+    assert_eq!(ran["run"]["plots"][0]["title"], "vehicle.x", "{}", ran["refused"]);
+
+    let open = b"speed at impact: 60 km/h\nt (ms),delta-v (km/h)\n0,0\n50,15\n100,30\n150,30\n";
+    let words = |made: &Value| made["refused"]["words"].as_str().unwrap_or_default().to_owned();
+    assert!(words(&import("open.csv", open, &[])).contains("--struck"), "{}", words(&import("open.csv", open, &[])));
+    assert_eq!(words(&import("open.csv", open, &["front"])), "");
+    assert!(words(&import("none.csv", b"a,b\n1,2\n3,4\n", &[])).contains("none.csv"));
+}

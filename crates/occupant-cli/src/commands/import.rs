@@ -6,8 +6,8 @@ use occupant_scenario::kind::{FREQUENCY, KINDS, LENGTH, SPEED, TIME};
 
 use super::flags::history::{WindowArgs, interval};
 use crate::base::{Failure, ending, file_name, file_stem, note, one_of, publish, quoted, refuse_input, say};
-use occupant_files::measured::{self, AXES, Axes, DELTA_V, DeltaV, Fired, Hints, Imported, Reading, Report, SIDES};
-use occupant_jobs::import::{Made, PathFilter, PathTable, Request, import as made};
+use occupant_files::measured::{self, AXES, Axes, DELTA_V, DeltaV, Hints, Imported, Reading, SIDES};
+use occupant_jobs::import::{Made, PathFilter, Request, import as made, is_belted, scenario};
 
 /// Make a scenario from a crash test, an event data recorder or a simulated path
 ///
@@ -184,7 +184,7 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
     if let Some(path) = &made.path {
         publish(&path_file, args.force, &path.csv)?;
         say(&format!("wrote {}: {}", path_file.display(), path.words));
-        let text = scenario(&args.source, imported, path, &file_name(&path_file));
+        let text = scenario(&file_name(&args.source), imported, path, &file_name(&path_file));
         publish(name, args.force, text.as_bytes())?;
         let [from_s, to_s] = path.run_s.map(placed_text::number);
         let who = if is_belted(&imported.report) { "a belted" } else { "an unbelted" };
@@ -214,58 +214,4 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
     };
     say(&format!("next: {}", next.join("\n      ")));
     Ok(())
-}
-
-/// The driver's scenario with the imported path.
-fn scenario(source: &Path, imported: &Imported, path: &PathTable, file: &str) -> String {
-    let text = |words: &str| toml_edit::Value::from(words).to_string();
-    let title = Some(imported.record.title.trim()).filter(|title| !title.is_empty());
-    let title = title.map_or_else(|| file_name(source), str::to_owned);
-    let keys = path.keys.join("\n");
-    let origin = format!("{}: {}, of {}", file_name(source), path.words, title);
-    let [from_s, to_s] = path.run_s;
-    let begin = if from_s == 0.0 { String::new() } else { format!("start = {from_s:?}\n") };
-    let time = format!("[time]                      # all of the path\n{begin}end = {to_s:?}                   # s\n");
-    let section = format!("{time}\n[path]\n{keys}\nfile = {}\n", text(file));
-    with_report(&occupant_jobs::templates::with_path(&text(&title), &text(&origin), &section), &imported.report)
-}
-
-fn is_belted(report: &Report) -> bool {
-    report.belt.is_none_or(|(worn, _)| worn)
-}
-
-/// The scenario with what the report of a recorder says about belt and bag.
-fn with_report(scenario: &str, report: &Report) -> String {
-    let seat = "[car.seats.driver]\n";
-    let mut text = scenario.to_owned();
-    let put = |text: &str, after: &str, line: String| text.replacen(after, &format!("{after}{line}"), 1);
-    if let Some((worn, line)) = report.belt {
-        let kind = if worn { "three_point" } else { "none" };
-        let said = if worn { "fastened" } else { "not fastened" };
-        text = put(&text, seat, format!("belt = \"{kind}\"        # recorder, line {line}: {said}\n"));
-    }
-    let is_worn = is_belted(report);
-    if !is_worn {
-        text = text.replacen("# A belted driver", "# An unbelted driver", 1);
-    }
-    if let Some((Fired::No, line)) = report.pretensioner {
-        text = put(&text, "pretensioner = \"100 mm\"", format!(" # recorder, line {line}: not fired, so set to 0\n"));
-        text = text.replacen("pretensioner = \"100 mm\" #", "pretensioner = \"0 mm\" #", 1);
-    }
-    if let Some((Fired::No, line)) = report.bag {
-        text += &format!("\n[car.bags]\ndriver = false              # recorder, line {line}: not fired\n");
-    }
-    let at = |name: &str, time_s: f64, line: usize, device: &str| {
-        let ms = placed_text::number((time_s * 1e6).round() / 1e3);
-        format!(
-            "\n[triggers.{name}]           # recorder, line {line}\nkind = \"time\"\nat = \"{ms} ms\"\n\n[{device}]\ntrigger = \"{name}\"\ndelay = 0\n"
-        )
-    };
-    if let Some((Fired::At(time_s), line)) = report.bag {
-        text += &at("recorded_bag", time_s, line, "bags.driver");
-    }
-    if let Some((Fired::At(time_s), line)) = report.pretensioner.filter(|_| is_worn) {
-        text += &at("recorded_pretensioner", time_s, line, "retractors.driver.pretensioner");
-    }
-    text
 }

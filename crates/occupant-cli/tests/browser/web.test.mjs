@@ -23,7 +23,7 @@ const MOST_MS = { first: 3000, answer: 500 };
 const DESKTOP = { width: 1280, height: 800 };
 const PHONE = { width: 360, height: 740 };
 
-const tests = { isSmall, isQuick, answersHands, isTheCommand, isTheCommandWithChanges, isTheSweep, savesResults, takesHostileTexts, marksProblems, completes, plotsChannels, compares, teaches, carriesLinks, runsFromServers, isNamed, fits };
+const tests = { isSmall, isQuick, answersHands, isTheCommand, isTheCommandWithChanges, isTheSweep, savesResults, takesHostileTexts, marksProblems, completes, plotsChannels, opensRecords, compares, teaches, carriesLinks, runsFromServers, isNamed, fits };
 
 const ask = (page, request) => page.evaluate((r) => window.occupantPage.runner.ask(r).then(({ answer }) => answer), request);
 
@@ -277,6 +277,30 @@ async function plotsChannels(open) {
   await field.press("Enter");
   await idle(page);
   assert.equal((await page.locator(".plot h3").allTextContents())[0], titles[2]);
+  return page;
+}
+
+async function opensRecords(open) {
+  const page = await open(file);
+  await idle(page);
+  const data = resolve(import.meta.dirname, "../data/recorders/magnitudes.csv");
+  const bare = join(work, "open.csv");
+  writeFileSync(bare, "speed at impact: 60 km/h\nt (ms),delta-v (km/h)\n0,0\n50,15\n100,30\n150,30\n");
+  for (const record of [data, bare]) {
+    await page.locator("input[type=file]").setInputFiles(record);
+    if (record === bare) await page.getByRole("button", { name: "front", exact: true }).click();
+    const name = record === bare ? "open.toml" : "magnitudes.toml";
+    await page.waitForFunction((expected) => window.occupantPage.state.name === expected, name);
+    await idle(page);
+    assert.match(await page.locator(".status").textContent(), /^Simulated/);
+    const says = await page.getByLabel("Notes on the record").locator("li").count();
+    assert.ok(says > 0, "no note");
+    writeFileSync(join(work, name), await page.evaluate(() => window.occupantPage.state.text));
+    for (const [table, text] of await page.evaluate(() => Object.entries(window.occupantPage.state.tables))) writeFileSync(join(work, table), text);
+    const theirs = JSON.parse(command("run", name, "--no-mcap", "--json", "--quiet"));
+    assert.deepStrictEqual(await page.evaluate(() => window.occupantPage.now.summary.measures), theirs.measures);
+  }
+  await picture(page, "record");
   return page;
 }
 

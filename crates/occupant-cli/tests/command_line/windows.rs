@@ -13,7 +13,9 @@ fn long_paths_with_a_drive_and_either_slash() {
     fs::create_dir_all(&deep).unwrap();
     let plain = deep.display().to_string().replace(r"\\?\", "");
     assert!(plain.len() > 260 && plain.as_bytes()[1] == b':', "{plain}");
-    for (i, name) in [format!(r"{plain}\run0.mcap"), format!("{}/run1.mcap", plain.replace('\\', "/"))].iter().enumerate() {
+    for (i, name) in
+        [format!(r"{plain}\run0.mcap"), format!("{}/run1.mcap", plain.replace('\\', "/"))].iter().enumerate()
+    {
         let output = answer(folder.path(), &["run", "case.toml", "--until", "10 ms", "-o", name]);
         assert_eq!(code(&output), 0, "{}", err(&output));
         assert!(deep.join(format!("run{i}.mcap")).exists());

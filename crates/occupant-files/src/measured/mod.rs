@@ -84,17 +84,28 @@ pub fn import(path: &Path, reading: Reading) -> Result<Imported, Failure> {
         trajectory::one_vehicle(path, vehicle)?;
     }
     if let Some(hints) = hints.filter(|_| trajectory.is_none() && is_text(path)) {
-        let (text, bytes, encoding) = text_of(path)?;
-        if let Some((mut recording, report)) = recorder::read(path, &text, hints, &sha256(&bytes))? {
-            recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));
-            return Ok(Imported { record: TestRecord::default(), recording, axes: None, report });
-        }
+        return import_table(path, input_file::read(path)?, hints);
     }
     let (recording, axes) = match trajectory {
         Some((recording, axes)) => (recording, Some(axes)),
         None => (read(path)?, (path.is_dir() || ending(path) == "mme").then_some(Axes::ZDown)),
     };
     Ok(Imported { record: TestRecord::default(), recording, axes, report: Report::default() })
+}
+
+/// Reads the bytes of a table, a workbook or a report of a recorder; `path` is its name.
+///
+/// # Errors
+/// As [`read`].
+pub fn import_table(path: &Path, bytes: Vec<u8>, hints: Hints) -> Result<Imported, Failure> {
+    let (text, bytes, encoding) = as_text(path, bytes)?;
+    let hash = sha256(&bytes);
+    let (mut recording, report) = match recorder::read(path, &text, hints, &hash)? {
+        Some(read) => read,
+        None => (table::read(path, &text, None, hash)?, Report::default()),
+    };
+    recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));
+    Ok(Imported { record: TestRecord::default(), recording, axes: None, report })
 }
 
 /// Reads a text table (.csv, .txt, .tsv), an ISO-MME test (its folder, or the .mme file in it) or a test of NHTSA (its folder, or the
@@ -140,7 +151,10 @@ fn is_text(path: &Path) -> bool {
 
 /// The text of a file or workbook, its bytes, and its encoding if it is not UTF-8.
 fn text_of(path: &Path) -> Result<(String, Vec<u8>, Option<&'static str>), Failure> {
-    let bytes = input_file::read(path)?;
+    as_text(path, input_file::read(path)?)
+}
+
+fn as_text(path: &Path, bytes: Vec<u8>) -> Result<(String, Vec<u8>, Option<&'static str>), Failure> {
     refuse_own(path)?;
     if xlsx::is_archive(&bytes) {
         let text = xlsx::text(&bytes).map_err(|found| {

@@ -2,6 +2,7 @@
 
 mod curves;
 mod path;
+mod scenario;
 
 use occupant_scenario::kind::{KINDS, SPEED};
 
@@ -10,9 +11,10 @@ use occupant_files::measured::{Axes, Imported};
 use occupant_files::signals::Recording;
 
 pub use path::{PathFilter, PathTable};
+pub use scenario::{is_belted, scenario};
 
 /// A requested import.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Request<'a> {
     /// Location of the vehicle's sensors; if absent the centre of gravity, or a representative location.
     pub place: Option<&'a str>,

@@ -45,7 +45,7 @@ class Page {
       type: "file",
       multiple: true,
       hidden: true,
-      accept: ".toml,.json,.csv,.txt,.mcap",
+      accept: ".toml,.json,.csv,.txt,.tsv,.xlsx,.mcap",
     });
     this.file.addEventListener("change", () => this.open([...this.file.files]));
     const bar = element(
@@ -57,7 +57,7 @@ class Page {
       button(
         "Open…",
         () => this.file.click(),
-        "A scenario (.toml, .json) with the tables that it names (.csv), or results (.mcap)",
+        "A scenario (.toml, .json) with the tables that it names (.csv), a recorder's report (.csv, .txt, .xlsx), or results (.mcap)",
       ),
       button("Save scenario", () => this.saveText()),
       button(
@@ -77,7 +77,9 @@ class Page {
       ["Study", this.study.root],
     ]);
     this.tabs = tabs;
-    const run = element("div", { class: "running" }, this.status, this.bar, this.stopButton);
+    this.notes = element("ul", { class: "record", "aria-label": "Notes on the record" });
+    const running = [this.status, this.bar, this.stopButton];
+    const run = element("div", { class: "running" }, ...running, this.notes);
     const hand = element("section", { class: "hand", "aria-label": "Scenario" }, run, tabs.root);
     root.append(bar, element("main", { class: "sides" }, hand, this.view.root), footer());
     root.addEventListener("dragover", (event) => event.preventDefault());
@@ -120,6 +122,7 @@ class Page {
 
   /** Takes a case as it was saved. */
   take({ name, text, set, tables }) {
+    this.notes.replaceChildren();
     this.state = { name, text, set: new Map(Object.entries(set)), tables: { ...tables } };
     const known = this.templates.find((template) => `${template.name}.toml` === name);
     this.template.value = known && known.text === text ? known.name : "";
@@ -349,9 +352,29 @@ class Page {
     const scenario = texts.find(isScenario);
     const tables = Object.fromEntries(texts.filter((file) => !isScenario(file)));
     if (scenario) this.take({ name: scenario[0], text: scenario[1], set: {}, tables });
-    else {
+    else if (files.length === 1 && !this.state.text.includes(files[0].name)) {
+      await this.openRecord(files[0]);
+    } else {
       Object.assign(this.state.tables, tables);
       this.changed();
+    }
+  }
+
+  /** Makes a case of a recorder's table or report; asks for the side that was struck where it is open. */
+  async openRecord(file, struck = []) {
+    try {
+      const bytes = new Uint8Array(await file.arrayBuffer());
+      const request = { do: "import", name: file.name, struck };
+      const { answer } = await this.checker.ask(request, () => {}, bytes);
+      this.take({ ...answer.case, set: {} });
+      this.notes.replaceChildren(...answer.notes.map((note) => element("li", {}, note)));
+    } catch (error) {
+      if (error instanceof GivenUp) return;
+      this.say(error.message, true);
+      if (!error.message.includes("--struck")) return;
+      const sides = ["front", "rear", "left", "right"];
+      const choice = sides.map((side) => button(side, () => this.openRecord(file, [side])));
+      this.status.append(" Struck at the: ", ...choice);
     }
   }
 

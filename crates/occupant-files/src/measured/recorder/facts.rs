@@ -252,7 +252,7 @@ fn said(line: &Line, head: Option<&Line>) -> Vec<(String, String)> {
         [key, value, unit] if number(value).is_some() && scale_of(unit).is_some() => {
             vec![pair(key, &format!("{value} {unit}"))]
         }
-        _ if filled.len() % 2 == 0
+        _ if filled.len().is_multiple_of(2)
             && filled.len() > 2
             && filled.chunks(2).all(|c| !is_value(c[0]) && is_value(c[1])) =>
         {

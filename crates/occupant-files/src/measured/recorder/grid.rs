@@ -1,5 +1,7 @@
 //! The layout of a report: its lines as cells, its tables with headings, units and rows, and the lines of words between them.
 
+use std::collections::BTreeMap;
+
 use occupant_scenario::{column_in, column_named, folded, speed_named};
 use placed_text::{is_missing, name_and_unit};
 
@@ -116,7 +118,8 @@ fn lines(text: &str) -> Option<Vec<Line>> {
     }
     let has_commas = is_comma_separated(&all);
     let line = |(i, line): (usize, &&str)| {
-        let line = line.replace(['\u{a0}', '\u{202f}', '\u{2009}'], " ").replace('\u{feff}', "");
+        let is_blank = |c: char| ['\u{a0}', '\u{202f}', '\u{2009}'].contains(&c) || c.is_control() && c != '\t';
+        let line = line.replace(is_blank, " ").replace('\u{feff}', "");
         // dots that lead from a key to its value
         let line = if line.contains("...") || line.contains('…') { without_leaders(&line) } else { line };
         let bare = line.trim();
@@ -346,9 +349,9 @@ fn is_timeless(line: &Line, within: bool) -> bool {
 
 /// The number of cells that most rows have.
 fn usual_count(lines: &[Line], rows: &[usize]) -> usize {
-    let counts: Vec<usize> = rows.iter().map(|&i| row_cells(&lines[i]).len()).collect();
-    let times = |count: &usize| counts.iter().filter(|other| *other == count).count();
-    counts.iter().copied().max_by_key(|count| (times(count), *count)).unwrap_or(0)
+    let mut times: BTreeMap<usize, usize> = BTreeMap::new();
+    rows.iter().for_each(|&i| *times.entry(row_cells(&lines[i]).len()).or_default() += 1);
+    times.into_iter().max_by_key(|&(count, times)| (times, count)).map_or(0, |(count, _)| count)
 }
 
 /// Rows behind repeated headings or a page's foot, from and to.

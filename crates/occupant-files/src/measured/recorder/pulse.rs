@@ -424,8 +424,8 @@ impl Pulse<'_> {
             let end_s = finite(&acceleration.time_s).next_back().unwrap_or(0.0).min(last_time(told));
             let of = |signal: &Signal| {
                 let values = change(signal);
-                let known = signal.time_s.iter().zip(&values).filter(|(t, v)| **t <= end_s + 1e-9 && v.is_finite());
-                known.last().map_or(0.0, |(_, v)| *v)
+                let mut known = signal.time_s.iter().zip(&values).filter(|(t, v)| **t <= end_s + 1e-9 && v.is_finite());
+                known.next_back().map_or(0.0, |(_, v)| *v)
             };
             let (a, b) = (of(told), of(acceleration));
             let is_opposite = a * b < 0.0 && a.abs().min(b.abs()) > LITTLE_M_S;
@@ -481,8 +481,8 @@ impl Pulse<'_> {
 }
 
 fn last_time(signal: &Signal) -> f64 {
-    let known = signal.time_s.iter().zip(&signal.values).filter(|(_, value)| value.is_finite());
-    known.last().map_or(0.0, |(t, _)| *t)
+    let mut known = signal.time_s.iter().zip(&signal.values).filter(|(_, value)| value.is_finite());
+    known.next_back().map_or(0.0, |(t, _)| *t)
 }
 
 /// Whether the last 20 ms still change by more than 0.8 km/h.
