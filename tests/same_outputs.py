@@ -21,6 +21,7 @@ need is run as well. --keep leaves all products in DIR/old and DIR/new, which mu
 
 Ignored is only what differs between two runs of one program, or with its version or that of a library:
 
+- the slashes of paths on standard output, which are those of the platform;
 - wall times in tables, in JSON and in the columns `wall_time_s`; lines of progress of sweeps and fits;
 - `results.parquet` and `history.parquet`, the journals of sweeps and fits, which hold wall times, and `SHA256SUMS` of them;
 - the program's version; the library named in Parquet files; of MCAP files the library and, where that differs, index,
@@ -182,6 +183,8 @@ def parts_of(name: str, data: bytes, version: bytes) -> list[Part]:
 
 def text_parts(name: str, data: bytes, version: bytes) -> list[Part]:
     data = data.replace(version, b"occupant VERSION")
+    if name.startswith("standard "):  # paths as Windows writes them
+        data = data.replace(b"\\", b"/")
     for pattern, neutral in NEUTRAL:
         data = re.sub(pattern, neutral, data)
     lines = data.split(b"\n")

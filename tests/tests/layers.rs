@@ -107,6 +107,7 @@ const ROOMS: [(&str, &[&str]); 11] = [
             "files",
             "instruments",
             "compare",
+            "templates",
             "import",
             "export",
             "plot",
@@ -125,11 +126,10 @@ const ROOMS: [(&str, &[&str]); 11] = [
             "search",
             "fit",
             "optimise",
-            "templates",
         ],
     ),
     ("occupant-cli", &["base", "commands"]),
-    ("occupant-web", &["rounded", "knobs", "case", "run", "study", "abi"]),
+    ("occupant-web", &["knobs", "case", "import", "run", "study", "abi"]),
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.

@@ -333,19 +333,19 @@ fn each_occupant_has_plots_in_the_units_asked_for() {
 fn a_report_plots_the_channels_that_were_chosen_first() {
     let folder = folder_with_run();
     let report = |channels: &str| answer(folder.path(), &["report", "run.mcap", "--channel", channels]);
-    let output = report("head.acceleration.*,head.x");
+    let output = report("head.acceleration.*,head.position.x");
     assert_eq!(code(&output), 0, "{}", err(&output));
     let html = read(folder.path(), "run.html");
     let data = html.split_once("id=\"report-data\">").and_then(|(_, rest)| rest.split_once("</script>"));
     let data: serde_json::Value = serde_json::from_str(data.expect("data").0).expect("JSON");
     let plots = data["runs"][0]["plots"].as_array().expect("plots");
     let heads = plots[..2].iter().map(|plot| (plot["title"].as_str(), plot["unit"].as_str()));
-    let expected = [(Some("head.acceleration.x and 3 more"), Some("m/s²")), (Some("head.x"), Some("m"))];
+    let expected = [(Some("head.acceleration.x and 3 more"), Some("m/s²")), (Some("head.position.x"), Some("m"))];
     assert_eq!(heads.collect::<Vec<_>>(), expected);
     assert_eq!(plots[0]["curves"].as_array().map(Vec::len), Some(4));
-    let output = report("hed.x");
+    let output = report("hed.position.x");
     assert_eq!(code(&output), 2);
-    assert!(err(&output).contains("`head.x`"), "{}", err(&output));
+    assert!(err(&output).contains("there is no channel `hed.position.x`"), "{}", err(&output));
 }
 
 #[test]

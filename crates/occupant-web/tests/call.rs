@@ -153,8 +153,8 @@ fn a_report_of_a_recorder_becomes_a_case() {
     let (checked, _) = ask(&json!({"do": "check", "case": made["case"]}));
     let problems = checked["problems"].as_array().unwrap();
     assert!(problems.iter().all(|problem| problem["is_error"] == false), "{problems:?}");
-    let (ran, _) = ask(&json!({"do": "run", "case": made["case"], "channels": ["vehicle.x"]}));
-    assert_eq!(ran["run"]["plots"][0]["title"], "vehicle.x", "{}", ran["refused"]);
+    let (ran, _) = ask(&json!({"do": "run", "case": made["case"], "channels": ["head.position.x"]}));
+    assert_eq!(ran["run"]["plots"][0]["title"], "head.position.x", "{}", ran["refused"]);
 
     let open = b"speed at impact: 60 km/h\nt (ms),delta-v (km/h)\n0,0\n50,15\n100,30\n150,30\n";
     let words = |made: &Value| made["refused"]["words"].as_str().unwrap_or_default().to_owned();

@@ -27,7 +27,7 @@ export class View {
       type: "search",
       list: "channels",
       spellcheck: "false",
-      placeholder: "head.acceleration.*, head.x",
+      placeholder: "head.acceleration.*, head.position.x",
       "aria-label": "Channels to plot, by name or pattern",
     });
     this.chosen.addEventListener("change", () => {
