@@ -272,7 +272,7 @@ async function plotsChannels(open) {
   await field.fill("hed.position.x");
   await field.press("Enter");
   await idle(page);
-  assert.match(await page.locator(".status").textContent(), /no channel.*hed\.position\.x/s);
+  assert.match(await page.locator(".status").first().textContent(), /no channel.*hed\.position\.x/s);
   await field.fill("");
   await field.press("Enter");
   await idle(page);
@@ -288,11 +288,11 @@ async function opensRecords(open) {
   writeFileSync(bare, "speed at impact: 60 km/h\nt (ms),delta-v (km/h)\n0,0\n50,15\n100,30\n150,30\n");
   for (const record of [data, bare]) {
     await page.locator("input[type=file]").setInputFiles(record);
-    if (record === bare) await page.getByRole("button", { name: "front", exact: true }).click();
+    if (record === bare) await page.locator(".running").getByRole("button", { name: "front", exact: true }).click();
     const name = record === bare ? "open.toml" : "magnitudes.toml";
     await page.waitForFunction((expected) => window.occupantPage.state.name === expected, name);
     await idle(page);
-    assert.match(await page.locator(".status").textContent(), /^Simulated/);
+    assert.match(await page.locator(".status").first().textContent(), /^Simulated/);
     const says = await page.getByLabel("Notes on the record").locator("li").count();
     assert.ok(says > 0, "no note");
     writeFileSync(join(work, name), await page.evaluate(() => window.occupantPage.state.text));

@@ -39,6 +39,7 @@ export class Stage {
     this.resolution = new Resolution(this.renderer, clock);
     this.pending = false;
     this.actors = [];
+    this.gone = [];
     this.canvas = this.renderer.domElement;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "The occupant in the compartment, in three dimensions");
@@ -62,10 +63,9 @@ export class Stage {
 
   /** Shows other runs from where the camera is. */
   replace(runs, clock) {
-    for (const actor of this.actors) {
-      this.scene.remove(actor.group);
-      actor.release();
-    }
+    for (const actor of this.actors) this.scene.remove(actor.group);
+    // released after the next picture: the programs that old and new share stay compiled
+    this.gone.push(...this.actors);
     this.labels.layer.remove();
     const count = this.runs.length;
     this.put(runs, clock);
@@ -168,6 +168,7 @@ export class Stage {
       this.resolution.drawn(now);
       this.renderer.render(this.scene, this.camera);
       this.labels.place();
+      this.gone.splice(0).forEach((actor) => actor.release());
       this.frames += 1;
     });
   }
