@@ -266,19 +266,12 @@ impl Pulse<'_> {
             let values = si(signal);
             let peak = extreme(&values);
             let is_cut = ends_changing(&signal.time_s, &values);
+            let [told, read] = [most, peak].map(km_h);
+            let found = format!("the largest velocity change is {told} km/h here and {read} km/h in `{}`", signal.name);
             if (most.abs() - peak.abs()).abs() > 0.1 * most.abs().max(peak.abs()) + 0.56 {
                 if !is_cut || most.abs() < peak.abs() {
-                    return Err(contradiction(
-                        self.path,
-                        line,
-                        &format!(
-                            "the largest velocity change is {} km/h here and {} km/h in `{}`",
-                            km_h(most),
-                            km_h(peak),
-                            signal.name
-                        ),
-                    )
-                    .hint("correct one of the two, their units, or give --delta-v interval"));
+                    return Err(contradiction(self.path, line, &found)
+                        .hint("correct one of the two, their units, or give --delta-v interval"));
                 }
                 recording.notes.push(format!(
                     "the table ends at {} km/h, before the largest velocity change of {} km/h (line {line}): the pulse is cut off, and results are too low",
@@ -289,17 +282,7 @@ impl Pulse<'_> {
                 && self.hints.struck.is_none()
                 && !matches!(self.facts.signs, Some((Signs::None | Signs::Loss, _)))
             {
-                return Err(contradiction(
-                    self.path,
-                    line,
-                    &format!(
-                        "the largest velocity change is {} km/h here and {} km/h in `{}`",
-                        km_h(most),
-                        km_h(peak),
-                        signal.name
-                    ),
-                )
-                .hint(STRUCK));
+                return Err(contradiction(self.path, line, &found).hint(STRUCK));
             }
         }
         Ok(())
