@@ -116,6 +116,7 @@ const ROOMS: [(&str, &[&str]); 11] = [
             "report",
             "run",
             "extend",
+            "seal",
             "drive",
             "quoted",
             "ensemble",

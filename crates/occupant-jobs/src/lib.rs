@@ -48,6 +48,7 @@ pub mod quoted;
 pub mod report;
 pub mod risk;
 pub mod run;
+pub mod seal;
 pub mod search;
 pub mod sensitivity;
 pub mod study;

@@ -6,7 +6,7 @@ use std::fmt::Write;
 const GROUPS: [(&str, &[&str]); 7] = [
     ("Set up a case", &["new", "check", "explain", "schema", "surface"]),
     ("Simulate", &["run", "drive"]),
-    ("Look at a run", &["view", "report", "plot", "print", "channels"]),
+    ("Look at a run", &["view", "report", "seal", "plot", "print", "channels"]),
     ("Judge a run or a test", &["measures", "compare", "risk", "sensitivity"]),
     ("Many runs", &["sweep", "study", "fit", "optimise"]),
     ("Exchange data with other programs and tests", &["import", "export", "convert"]),

@@ -28,6 +28,7 @@ mod report;
 mod risk;
 mod run;
 mod schema;
+mod seal;
 mod sensitivity;
 mod study;
 mod surface;
@@ -94,6 +95,7 @@ commands! {
     Measures: measures::measures,
     View: view::view,
     Report: report::report,
+    Seal: seal::seal,
     Risk: risk::risk,
     Sensitivity: sensitivity::sensitivity,
     Completions: completions::print,

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use super::{answer, code, err, folder_with_case, out};
 
 /// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
-const COMMANDS: [[&str; 2]; 25] = [
+const COMMANDS: [[&str; 2]; 26] = [
     ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
     [
         "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
@@ -32,6 +32,7 @@ const COMMANDS: [[&str; 2]; 25] = [
     ["measures run.mcap", "measures run.mcap --dummy none"],
     ["view run.mcap -f", "view none.mcap"],
     ["report run.mcap -f", "report none.mcap"],
+    ["seal run.mcap -f", "seal none.mcap"],
     ["risk case.toml", "risk none.csv"],
     [
         "sensitivity case.toml --to head.peak --of belts.lap.k1 --set time.end=0.005",
