@@ -19,6 +19,7 @@ mod recorders;
 mod recording;
 mod records;
 mod risk;
+mod seal;
 mod sensitivity;
 mod study;
 mod surfaces;
