@@ -49,6 +49,7 @@ pub mod report;
 pub mod risk;
 pub mod run;
 pub mod search;
+#[cfg(feature = "sensitivity")]
 pub mod sensitivity;
 pub mod study;
 pub mod surface;
