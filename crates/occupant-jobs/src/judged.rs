@@ -92,13 +92,15 @@ impl Carried {
         let speed = units.say(self.delta_v_m_s.xy().norm(), "m/s", 1);
         let side = if self.delta_v_m_s.y > 0.0 { "left" } else { "right" };
         let angle = self.angle_deg();
-        let beside = if angle < 0.5 { String::new() } else { format!(" to the {side}") };
+        let beside = if !(0.5..179.5).contains(&angle) { String::new() } else { format!(" to the {side}") };
         let why = format!("delta-v of the vehicle {speed}, struck {angle:.0}° from straight ahead{beside}");
         match self.direction() {
             Direction::Rollover => {
                 format!("Rollover: the vehicle tilts by {:.0}°. Limits of crash tests do not apply", self.tilt_deg())
             }
-            Direction::None => format!("No impact on the vehicle found: its velocity changes by {speed}"),
+            Direction::None => {
+                format!("No impact on the vehicle: its velocity changes by {speed}. Limits are of frontal tests")
+            }
             Direction::Blow(Blow::Front) => format!("Frontal impact: {why}"),
             Direction::Blow(Blow::Side) => format!("Side impact from the {side}: {why}"),
             Direction::Blow(Blow::Rear) => format!("Rear impact: {why}"),

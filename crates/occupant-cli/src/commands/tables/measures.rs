@@ -37,13 +37,13 @@ pub(crate) fn table<'m>(
     units: Units,
     verdicts: bool,
 ) -> String {
-    let limit = if verdicts { "limit" } else { "limit of a dummy" };
+    let of = if verdicts { "of" } else { "of a dummy, by" };
     let mut table = Table::new(&[
         (Left, &["injury measure"]),
         (Right, &["value"]),
         (Left, &["unit"]),
-        (Right, &["at, ms", limit]),
-        (Left, &["of"]),
+        (Right, &["at, ms", "limit"]),
+        (Left, &[of]),
         (Right, &["margin"]),
         (Left, &[""]),
     ]);

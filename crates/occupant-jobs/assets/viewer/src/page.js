@@ -18,8 +18,8 @@ export function buildPage(root, report) {
   ].filter((part) => part !== null);
   const parts = [
     heading(runs, said.length > 0),
-    element("main", {}, scene, element("div", { class: "beside" }, plots)),
     strip,
+    element("main", {}, scene, element("div", { class: "beside" }, plots)),
     ...runs.map((run) => impacts(run, runs.length > 1)),
     buildTabs(runs),
     buildVerdicts(runs),

@@ -14,7 +14,9 @@ export function listenToPrint(strip, clock, stage, plots) {
     clock.pause();
     before = clock.time;
     document.documentElement.classList.add("paper");
-    folds = [...document.querySelectorAll("details:not([open], .scenario, footer details)")];
+    folds = [
+      ...document.querySelectorAll("#report details:not([open], .scenario, footer details)"),
+    ];
     folds.forEach((fold) => (fold.open = true));
     stage?.paint();
     plots.fit();

@@ -202,6 +202,9 @@ function valueCell(m, run) {
   return element("td", { class: "number" }, text, ...marks(m, run));
 }
 
+/** A longer list of contacts with the ground is folded. */
+const MOST_ROWS = 20;
+
 /** The ground in plan and all contacts with it, of runs with either. */
 function ground(runs, clock) {
   const parts = runs.flatMap((run, number) => {
@@ -212,10 +215,9 @@ function ground(runs, clock) {
     const more = run.ground.more > 0 ? element("p", {}, `and ${run.ground.more} more`) : null;
     const head = ["Time", "Segment", "Ground", "Place X, Y", "Speed"];
     const list = rows.length > 0 ? table(head, rows) : null;
-    return [
-      plan ? element("figure", { class: "planned" }, plan) : null,
-      folding(whose, list, more),
-    ];
+    const fold = folding(whose, list, more);
+    if (rows.length > MOST_ROWS) fold.open = false;
+    return [plan ? element("figure", { class: "planned" }, plan) : null, fold];
   });
   return parts.length > 0 ? section("On the ground", ...parts) : "";
 }
