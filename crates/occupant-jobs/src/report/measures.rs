@@ -226,7 +226,8 @@ fn add_ejections(rows: &mut Vec<Measure>, summary: &Summary) {
 /// Distances and speeds of thrown bodies, with Searle's bounds.
 fn add_throws(rows: &mut Vec<Measure>, summary: &Summary, units: Units) {
     let is_inch_pound = units.system == UnitSystem::InchPound;
-    let shown = |unit: Unit| unit.shown_to_people(is_inch_pound);
+    // ways of metres
+    let shown = |unit: Unit| if is_inch_pound { unit.shown_to_people(true) } else { unit.shown() };
     for (name, throw) in &summary.throws {
         let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
         let mut add =
@@ -242,7 +243,14 @@ fn add_throws(rows: &mut Vec<Measure>, summary: &Summary, units: Units) {
         let at_s = launch.map(|l| l.time_s);
         add("launch, speed", "launch_speed", launch.map(|l| l.speed_m_s), m_s, at_s, None);
         let angle = launch.map(|l| l.angle_deg.to_radians());
-        add("launch, angle above the horizontal", "launch_angle", angle, shown(Unit::Radian), at_s, None);
+        add(
+            "launch, angle above the horizontal",
+            "launch_angle",
+            angle,
+            Unit::Radian.shown_to_people(false),
+            at_s,
+            None,
+        );
         let touched = landing.map(|l| format!("{} first", l.sphere));
         let at_s = landing.map(|l| l.time_s);
         add("landing, speed", "landing_speed", landing.map(|l| l.speed_m_s), m_s, at_s, touched);
