@@ -141,9 +141,10 @@ struct Judged {
 }
 
 impl Judged {
-    fn of(file: &Path, again_s: Option<f64>, options: Options, asked: UnitsArg) -> Result<Self, Failure> {
+    fn of(file: &Path, again_s: Option<f64>, options: Options, asked: Option<UnitsArg>) -> Result<Self, Failure> {
         let results = Results::open(file)?;
-        let units = asked.or(results.loaded.scenario.units);
+        // JSON is in SI units
+        let units = asked.map_or(Units::default(), |asked| asked.or(results.loaded.scenario.units));
         let own_s = results.readings_s();
         let needed_s = (options.filtering != Filtering::None && own_s > 1.01 * FILTERED_S).then_some(FILTERED_S);
         // readings that the file has need no other run
@@ -194,7 +195,7 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
         return test::measures(args, &options);
     }
     test::refuse_flags(args)?;
-    let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options, args.units));
+    let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options, (!args.json).then_some(args.units)));
     let all = all.collect::<Result<Vec<_>, _>>()?;
     if args.json {
         let answers: Vec<_> = all.iter().map(Judged::answer).collect();

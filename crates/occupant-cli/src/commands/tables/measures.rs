@@ -37,13 +37,12 @@ pub(crate) fn table<'m>(
     units: Units,
     verdicts: bool,
 ) -> String {
-    let of = if verdicts { "of" } else { "of a dummy, by" };
     let mut table = Table::new(&[
         (Left, &["injury measure"]),
         (Right, &["value"]),
         (Left, &["unit"]),
         (Right, &["at, ms", "limit"]),
-        (Left, &[of]),
+        (Left, &["of"]),
         (Right, &["margin"]),
         (Left, &[""]),
     ]);
@@ -87,7 +86,7 @@ pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)], units: Units) -> Strin
 fn verdict(m: &Measure, limit: &Judgement, units: Units, verdicts: bool) -> [String; 4] {
     [
         shown(m, limit.most, units),
-        limit.rule.to_owned(),
+        if verdicts { limit.rule.to_owned() } else { format!("a dummy, {}", limit.rule) },
         format!("{:+.0} %", 100.0 * limit.relative_margin),
         if !verdicts {
             ""
