@@ -41,6 +41,7 @@ pub mod files;
 pub mod fit;
 pub mod import;
 pub mod instruments;
+pub mod judged;
 pub mod optimise;
 pub mod plot;
 pub mod print;
