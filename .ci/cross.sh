@@ -25,7 +25,7 @@ cross() {
   elif [ -d /usr/lib/rustlib/src/rust/library ] && [ -x /usr/bin/cargo ]; then
     local panic=panic_unwind
     [ "$target" != wasm32-unknown-unknown ] || panic=panic_abort
-    export RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1
+    export RUSTC=/usr/bin/rustc RUSTDOC=/usr/bin/rustdoc RUSTC_BOOTSTRAP=1
     cargo=(/usr/bin/cargo -Z "build-std=std,$panic")
   else
     echo "left out: no compiler for $target"
