@@ -1,8 +1,8 @@
 //! By which limits a body is judged: those for the direction of its impact, with verdicts for dummies alone.
 //!
 //! The direction is that of the delta-v, the sum of the changes of velocity in axes of the vehicle, when it is largest in
-//! the horizontal plane: from the front or from behind up to [`SECTOR_DEG`] beside the longitudinal axis, else from the
-//! side. A vehicle that tilts by more than [`TILT_DEG`] rolls over, whatever the delta-v.
+//! the horizontal plane: from the front or from behind up to 45° beside the longitudinal axis, else from the
+//! side. A vehicle that tilts by more than 45° rolls over, whatever the delta-v.
 
 use crash_measures::injury::{self, Judgement, Options, RULES};
 use crash_measures::measure::{Basis, Blow, Dummy, Grade, LIMITS, Limit, Quantity};
