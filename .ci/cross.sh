@@ -25,7 +25,7 @@ cross() {
   elif [ -d /usr/lib/rustlib/src/rust/library ] && [ -x /usr/bin/cargo ]; then
     local panic=panic_unwind
     [ "$target" != wasm32-unknown-unknown ] || panic=panic_abort
-    export RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1
+    export RUSTC=/usr/bin/rustc RUSTDOC=/usr/bin/rustdoc RUSTC_BOOTSTRAP=1
     cargo=(/usr/bin/cargo -Z "build-std=std,$panic")
   else
     echo "left out: no compiler for $target"
@@ -45,6 +45,10 @@ prepare_wine() {
   export WINEDEBUG=${WINEDEBUG:--all} WINEPREFIX=${WINEPREFIX:-${CARGO_TARGET_DIR:-$PWD/target}/wine}
   local system=$WINEPREFIX/drive_c/windows/system32
   [ -d "$system" ] || { mkdir -p "$WINEPREFIX" && wineboot --init >/dev/null 2>&1; }
+  # tests stand in a folder for temporary files, which is on another drive, and name files of the repository without a drive
+  local top
+  top=/$(printf %s "${PWD#/}" | cut -d/ -f1)
+  [ -e "$WINEPREFIX/drive_c$top" ] || ln -s "$top" "$WINEPREFIX/drive_c$top"
   [ -e "$system/bcryptprimitives.dll" ] ||
     x86_64-w64-mingw32-gcc -shared -O1 -s -o "$system/bcryptprimitives.dll" .ci/bcryptprimitives.c -ladvapi32
 }

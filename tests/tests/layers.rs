@@ -113,6 +113,7 @@ const ROOMS: [(&str, &[&str]); 11] = [
             "plot",
             "print",
             "risk",
+            "judged",
             "report",
             "run",
             "extend",

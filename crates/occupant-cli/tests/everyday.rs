@@ -65,7 +65,7 @@ fn a_limit_that_is_exceeded_is_red_where_there_are_colours() {
     done(here, &["run", "case.toml", "-q"]);
     let shown = |colours: &[(&str, &str)]| {
         let mut command = occupant(here);
-        command.args(["measures", "case.mcap"]).envs(colours.iter().copied());
+        command.args(["measures", "case.mcap", "--verdict"]).envs(colours.iter().copied());
         String::from_utf8(command.output().unwrap().stdout).unwrap()
     };
     let plain = shown(&[]);

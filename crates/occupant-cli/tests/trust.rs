@@ -167,14 +167,14 @@ fn figures_of_a_part_of_a_run_are_marked_and_do_not_pass() {
     assert_eq!(first["covers_s"], serde_json::json!([0.0, 0.06]));
     let told = done(at, &["measures", "first.mcap"]);
     assert!(told.contains("! the run was ended at 60 ms by time.end=60 ms"), "{told}");
-    done(at, &["report", "first.mcap", "-o", "first.html"]);
+    done(at, &["report", "first.mcap", "--verdict", "-o", "first.html"]);
     let page = fs::read_to_string(at.join("first.html")).expect("a page");
     assert!(!page.contains(r#""verdict":"passed""#) && page.contains(r#""verdict":null"#));
     // a file that continues from it holds the whole run
     let (rest, names) = caveats(at, "rest.mcap");
     assert!(!names.contains(&"part_of_a_run".to_owned()), "{names:?}");
     assert_eq!(rest["covers_s"], serde_json::json!([0.0, 0.2]));
-    done(at, &["report", "rest.mcap", "-o", "rest.html"]);
+    done(at, &["report", "rest.mcap", "--verdict", "-o", "rest.html"]);
     assert!(fs::read_to_string(at.join("rest.html")).expect("a page").contains(r#""verdict":"passed""#));
     // a run beyond the scenario's own end is no part
     assert!(!caveats(at, "longer.mcap").1.contains(&"part_of_a_run".to_owned()));

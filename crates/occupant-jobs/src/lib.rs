@@ -41,6 +41,7 @@ pub mod files;
 pub mod fit;
 pub mod import;
 pub mod instruments;
+pub mod judged;
 pub mod optimise;
 pub mod plot;
 pub mod print;
@@ -50,6 +51,7 @@ pub mod risk;
 pub mod run;
 pub mod seal;
 pub mod search;
+#[cfg(feature = "sensitivity")]
 pub mod sensitivity;
 pub mod study;
 pub mod surface;

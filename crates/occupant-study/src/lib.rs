@@ -76,6 +76,7 @@ mod saltelli;
 pub mod search;
 mod section;
 mod segments;
+#[cfg(feature = "sensitivity")]
 pub mod sensitivity;
 mod sobol;
 pub mod spread;

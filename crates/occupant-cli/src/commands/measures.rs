@@ -19,6 +19,7 @@ use crate::base::progress::Progress;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
 use occupant_files::results::Results;
 use occupant_jobs::files::history::{FAMILIES, family_name};
+use occupant_jobs::judged::{Impact, dummies};
 
 /// Sample interval of filtered channels, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;
@@ -53,6 +54,10 @@ pub(crate) struct Args {
     /// The dummy whose limits and risk curves apply; the Hybrid III nearest in mass if absent
     #[arg(long, value_name = "DUMMY", value_parser = one_of(&DUMMIES))]
     dummy: Option<Dummy>,
+
+    /// Print passed or EXCEEDED for people too. Limits are made for dummies, and for a person's body they are yardsticks
+    #[arg(long)]
+    verdict: bool,
 
     /// Exit with code 1 if a limit is exceeded
     #[arg(long)]
@@ -136,8 +141,10 @@ struct Judged {
 }
 
 impl Judged {
-    fn of(file: &Path, again_s: Option<f64>, options: Options) -> Result<Self, Failure> {
+    fn of(file: &Path, again_s: Option<f64>, options: Options, asked: Option<UnitsArg>) -> Result<Self, Failure> {
         let results = Results::open(file)?;
+        // JSON is in SI units
+        let units = asked.map_or(Units::default(), |asked| asked.or(results.loaded.scenario.units));
         let own_s = results.readings_s();
         let needed_s = (options.filtering != Filtering::None && own_s > 1.01 * FILTERED_S).then_some(FILTERED_S);
         // readings that the file has need no other run
@@ -153,6 +160,9 @@ impl Judged {
                 results.summary_again(options, interval_s, Progress::new(false))?
             }
         };
+        let mut summary = summary;
+        let reasons = if options.by_size { by_direction(&results, &mut summary, units)? } else { Vec::new() };
+        notes.extend(reasons);
         Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
     }
 
@@ -185,14 +195,14 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
         return test::measures(args, &options);
     }
     test::refuse_flags(args)?;
-    let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options));
+    let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options, (!args.json).then_some(args.units)));
     let all = all.collect::<Result<Vec<_>, _>>()?;
     if args.json {
         let answers: Vec<_> = all.iter().map(Judged::answer).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
     } else if let [one] = &all[..] {
         one.notes.iter().for_each(note);
-        print(&text(&one.results, one.interval_ms, &options, &one.summary, one.units(args)))?;
+        print(&text(one, &options, (one.units(args), args.verdict)))?;
     } else {
         all.iter().for_each(|one| one.notes.iter().for_each(|text| note(&format!("{}: {text}", one.file))));
         let units = all.first().map_or(Units::default(), |one| one.units(args));
@@ -201,6 +211,16 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let others = all.iter().flat_map(|one| one.summary.others.values()).flat_map(|person| &person.measures);
     let exceeded = all.iter().flat_map(|one| &one.summary.measures).chain(others).any(Measure::is_exceeded);
     Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
+}
+
+/// Judges bodies by the rules for their impacts, and says which they are.
+fn by_direction(results: &Results, summary: &mut Summary, units: Units) -> Result<Vec<String>, Failure> {
+    let impact = Impact::of(results)?;
+    impact.judge(summary, &results.model);
+    let bodies = results.model.body().tree.bodies().len();
+    let mut reasons: Vec<String> = (0..bodies).filter_map(|body| impact.reason(body, units)).collect();
+    reasons.dedup();
+    Ok(reasons)
 }
 
 /// Several runs, numbered, in one table.
@@ -238,7 +258,9 @@ fn filter(options: &Options) -> String {
 const JUDGEMENT: &str =
     "Limits and risk curves come from secondary sources: check the regulation itself before a legal statement.\n";
 
-fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summary, units: Units) -> String {
+fn text(one: &Judged, options: &Options, (units, verdict): (Units, bool)) -> String {
+    let Judged { results, summary, interval_ms, .. } = one;
+    let with_verdict = dummies(&results.loaded);
     let (people, all) = (summary.people(), Marks::of(&summary.caveats));
     let filter = filter(options);
     let title = shown(&results.model.setup().title);
@@ -249,9 +271,10 @@ fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summar
         vec![format!("{title}\nreadings every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n")];
     for (prefix, Person { measures, .. }) in &people {
         let marks = all.of_occupant(prefix);
+        let judged = verdict || with_verdict.iter().any(|name| name == prefix.trim_end_matches('.'));
         let name = shown(prefix.trim_end_matches('.'));
         parts.extend((!prefix.is_empty()).then(|| format!("{name}\n")));
-        parts.extend([table(measures, &marks, units), risks(measures, &marks), remarks(measures)]);
+        parts.extend([table(measures, &marks, units, judged), risks(measures, &marks), remarks(measures)]);
     }
     // what the marks mean stands behind the first table
     parts.insert(if people.len() > 1 { parts.len() } else { 2 }, all.explained().unwrap_or_default());

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::base::{Failure, Units, UnitsArg, deliver_and, file_name, is_page, note, refuse_input, say};
 use occupant_files::results::Results;
-use occupant_jobs::report::{MOST_RUNS, page, subject};
+use occupant_jobs::report::{MOST_RUNS, page_judged, subject};
 use occupant_pictures::html::is_page_of;
 
 /// Make an HTML page of one to four runs: 3-D motion, histories, measures
@@ -27,6 +27,10 @@ pub(crate) struct Args {
     #[command(flatten)]
     units: UnitsArg,
 
+    /// Judge people too by limits made for dummies: passed or failed. Without it they are yardsticks
+    #[arg(long)]
+    verdict: bool,
+
     /// Replace existing files
     #[arg(short, long)]
     force: bool,
@@ -44,16 +48,16 @@ pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     let files: Vec<PathBuf> = args.runs.iter().chain(&args.against).cloned().collect();
     let output = args.output.clone().unwrap_or_else(|| args.runs[0].with_extension("html"));
     let is_unasked = args.output.is_none();
-    write(&files, &output, (args.force, is_unasked, args.open), &args.channels, args.units)
+    write(&files, &output, (args.force, is_unasked, args.open), (&args.channels, args.verdict), args.units)
 }
 
 /// Writes the page of runs. `force`: replace any existing file; `is_unasked`: replace an earlier page of the same runs;
-/// `open`: open the page; `channels`: plots before the others.
+/// `open`: open the page; `channels`: plots before the others; `verdict`: judge people too.
 pub(crate) fn write(
     files: &[PathBuf],
     output: &Path,
     (force, is_unasked, open): (bool, bool, bool),
-    channels: &[String],
+    (channels, verdict): (&[String], bool),
     units: UnitsArg,
 ) -> Result<(), Failure> {
     if !is_page(output) {
@@ -68,7 +72,7 @@ pub(crate) fn write(
     runs.iter().flat_map(Results::notes).for_each(|text| note(&text));
     let force = force || is_unasked && replaces_earlier(files, output);
     let units = runs.first().map_or_else(Units::default, |run| units.or(run.loaded.scenario.units));
-    let page = page(&runs, channels, units)?;
+    let page = page_judged(&runs, channels, units, verdict)?;
     deliver_and(open, output, force, page.as_bytes())
 }
 

@@ -143,7 +143,7 @@ fn several(args: &Args) -> Result<Done, Failure> {
     }
     beside(&runs)?;
     if let Some(page) = &args.output {
-        report::write(&files, page, (args.force, true, false), &[], args.units)?;
+        report::write(&files, page, (args.force, true, false), (&[], false), args.units)?;
     }
     Ok(done)
 }
@@ -350,12 +350,13 @@ fn show(
     }
     let units = args.units.or(opened.loaded.scenario.units);
     let error = estimate.map(|estimate| estimate.text(units)).unwrap_or_default();
+    let dummies = occupant_jobs::judged::dummies(&opened.loaded);
     let Some(ensemble) = ensemble else {
-        let table = summary_table(&run.summary, &run.written, &Marks::of(&run.summary.caveats), units);
+        let table = summary_table(&run.summary, &run.written, &Marks::of(&run.summary.caveats), units, &dummies);
         return print(&(table + &error));
     };
     let marks = Marks::of(&run.summary.caveats).and_unstable(ensemble.unstable());
-    let summary = summary_table(&run.summary, &run.written, &marks, units);
+    let summary = summary_table(&run.summary, &run.written, &marks, units, &dummies);
     let files: String = ensemble.files.iter().map(|f| format!("written   {f}\n")).collect();
     print(&format!("{summary}{error}\n{}{files}", ensemble_text(ensemble, units)))
 }

@@ -32,6 +32,8 @@ const run = (label, caveats) => ({
   notes: [],
   caveats,
   measures: [],
+  impacts: [],
+  occupants: [],
 });
 
 test("a run without caveats leaves no word behind", () => {

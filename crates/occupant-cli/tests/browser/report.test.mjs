@@ -1,22 +1,25 @@
 // The pages of `occupant report` and `occupant study report` in a real browser:
-// node report.test.mjs REPORT.html COMPARISON.html STUDY.html [SCREENSHOTS]
+// node report.test.mjs FOLDER [SCREENSHOTS]
 //
-// REPORT.html is a report of scenarios/cart-lap-torso.toml, COMPARISON.html one with --against cart-unbelted, STUDY.html one of
-// scenarios/studies/screening-morris.toml.
+// The folder has the pages that run.sh makes: report of cart-lap-torso, judged with --verdict, comparison with --against
+// cart-unbelted, two of two occupants, thrown of a pedestrian, study of scenarios/studies/screening-morris.toml.
 
 import assert from "node:assert/strict";
 import { mkdirSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { withBrowser } from "./browser.mjs";
 
-const [report, comparison, study, pictures] = process.argv.slice(2).map((path) => resolve(path));
-if (!report || !comparison || !study) throw new Error("give REPORT.html, COMPARISON.html and STUDY.html");
+const [folder, pictures] = process.argv.slice(2).map((path) => resolve(path));
+if (!folder) throw new Error("give the folder of the pages");
+const [report, judged, comparison, two, thrown, study] = ["report", "judged", "comparison", "two", "thrown", "study"].map(
+  (name) => join(folder, `${name}.html`),
+);
 if (pictures) mkdirSync(pictures, { recursive: true });
 
 /** A report of 0.2 s at 1 kHz, the program of the page included. */
 const MOST_BYTES = 3e6;
 
-const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark, isShort, tellsFirst, foldsStudies };
+const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark, isShort, tellsFirst, judgesOnlyDummies, hasTabs, separatesLabels, drawsThrows, prints, foldsStudies };
 
 const state = (page) =>
   page.evaluate(() => {
@@ -182,6 +185,19 @@ async function compares(open) {
 }
 
 async function fitsSmallScreens(open) {
+  for (const file of [two, thrown]) {
+    for (const [width, most] of [[360, 4000], [768, 11000]]) {
+      const page = await open(file, { width, height: 740 });
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= width, `${file} is ${wide} px wide`);
+      // before: 19 802 px of two occupants; measured: 2900
+      assert.ok((await height(page)) <= most, `${file} at ${width} px is ${await height(page)} px high`);
+      const stage = await page.locator("#stage").boundingBox();
+      // the scene is on the first screen
+      assert.ok(stage.y < 250 && stage.y + stage.height < 740, `${stage.y} px`);
+      await page.close();
+    }
+  }
   const page = await open(report, { width: 380, height: 700 });
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(wide <= 380, `the page is ${wide} px wide`);
@@ -210,10 +226,136 @@ async function isShort(open) {
   return open(report);
 }
 
-async function tellsFirst(open) {
+/** A person's body gets no verdict, unless one asks for it. */
+async function judgesOnlyDummies(open) {
   const page = await open(report);
+  assert.equal(await page.locator(".card.failed, .card.passed, .verdict.failed, .verdict.passed").count(), 0);
+  assert.match(await page.locator(".card", { hasText: "Nij" }).first().textContent(), /limit of a dummy 1.000 \(Hybrid III 50M\), FMVSS 208/);
+  assert.match(await page.locator(".tables").textContent(), /700.0 of a dummy/);
+  assert.ok(!/failed|passed|EXCEEDED/.test(await page.locator(".verdicts, .tables table").first().textContent()));
+  assert.match(await page.locator(".impact").textContent(), /^Frontal impact: delta-v of the vehicle .*struck 0°/);
+  return page;
+}
+
+async function hasTabs(open) {
+  const page = await open(two);
+  const [driver, passenger] = [page.getByRole("tab", { name: "driver" }), page.getByRole("tab", { name: "passenger" })];
+  const seen = async () => {
+    const names = await page.locator("[data-occupant]:visible").evaluateAll((all) => all.map((one) => one.dataset.occupant));
+    return [...new Set(names)];
+  };
+  assert.deepEqual(await seen(), ["driver"]);
+  assert.equal(await driver.getAttribute("aria-selected"), "true");
+  const panels = (await driver.getAttribute("aria-controls")).split(" ");
+  assert.equal(panels.length, 2);
+  for (const id of panels) assert.equal(await page.locator(`#${id}`).getAttribute("role"), "tabpanel");
+  const before = (await state(page)).time;
+  await driver.focus();
+  await page.keyboard.press("ArrowRight");
+  assert.deepEqual(await seen(), ["passenger"]);
+  assert.ok(await passenger.evaluate((tab) => tab === document.activeElement && tab.tabIndex === 0));
+  assert.equal((await state(page)).time, before, "the arrow moved the time");
+  // plots that come to be seen are as wide as their place
+  const [canvas, place] = [page.locator(".plot:visible .uplot").first(), page.locator(".plot:visible .canvas").first()];
+  await settled(page);
+  assert.ok(Math.abs((await canvas.boundingBox()).width - (await place.boundingBox()).width) < 2);
+  for (const [key, expected] of [["ArrowRight", "driver"], ["ArrowLeft", "passenger"], ["Home", "driver"], ["End", "passenger"]]) {
+    await page.keyboard.press(key);
+    assert.deepEqual(await seen(), [expected], key);
+  }
+  // the rows of the one are not those of the other, and do not repeat the name
+  const names = await page.locator("#measures-passenger th[scope=row]").allTextContents();
+  assert.ok(names.includes("HIC15") && names.every((name) => !name.startsWith("driver.")));
+  await driver.click();
+  assert.deepEqual(await seen(), ["driver"]);
+  assert.match(await page.locator(".impact").textContent(), /^Side impact from the left: delta-v/);
+  // no rule of a frontal test judges a side impact
+  assert.ok(!/FMVSS 208|UN R94|UN R137/.test(await page.locator(".verdicts, .tables .groups").allTextContents().then((t) => t.join())));
+  await picture(page, "tabs");
+  return page;
+}
+
+async function separatesLabels(open) {
+  const page = await open(two, { width: 360, height: 740 });
+  await page.locator("#show-labels").click();
+  await seek(page, 0.07);
+  await settled(page);
+  const boxes = await page.locator(".label:visible").evaluateAll((all) =>
+    all.map((one) => [one.textContent, one.getBoundingClientRect()]).map(([text, { left, right, top, bottom }]) => ({ text, left, right, top, bottom })),
+  );
+  assert.ok(boxes.length > 3, `${boxes.length} labels`);
+  for (const [i, a] of boxes.entries()) {
+    for (const b of boxes.slice(i + 1)) {
+      const [x, y] = [Math.min(a.right, b.right) - Math.max(a.left, b.left), Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top)];
+      assert.ok(x < 1 || y < 1, `${a.text} covers ${b.text}`);
+    }
+  }
+  await picture(page, "labels");
+  return page;
+}
+
+/** The plan is to scale, and Searle's bounds stand beside the throw. */
+async function drawsThrows(open) {
+  const page = await open(thrown);
+  const row = (name) => page.locator(".tables tr", { has: page.getByRole("rowheader", { name, exact: true }) }).locator("td").first();
+  const number = async (name) => Number((await row(name).textContent()).match(/[\d.]+/)[0]);
+  const [slow, fast] = [await number("Searle, least speed"), await number("Searle, greatest speed")];
+  assert.ok(slow > 3 && slow < fast, `${slow} to ${fast}`);
+  const drawn = await page.locator(".plan").evaluate((svg) => {
+    const places = [...svg.querySelectorAll(".place")].map((one) => [one.cx.baseVal.value, one.cy.baseVal.value]);
+    const [left, right] = svg.querySelector(".ruler").getAttribute("d").match(/M(\d+).*H([\d.]+)/).slice(1).map(Number);
+    return { first: places[0], last: places.at(-1), ruler: right - left, texts: [...svg.querySelectorAll("text")].map((one) => one.textContent) };
+  });
+  const metres = Number(drawn.texts.at(-1).match(/^[\d.]+/)[0]);
+  const gone = (Math.hypot(drawn.last[0] - drawn.first[0], drawn.last[1] - drawn.first[1]) * metres) / drawn.ruler;
+  const distance = (await number("throw distance")) / ((await row("throw distance").textContent()).includes("mm") ? 1e3 : 1);
+  // measured: 0.03 %
+  assert.ok(Math.abs(gone / distance - 1) < 0.01, `${gone} m in plan, ${distance} m in the table`);
+  const fold = page.locator("details", { has: page.getByRole("heading", { name: "Contacts with the ground" }) });
+  await fold.locator("summary").click();
+  const rows = await fold.locator("tbody tr").allTextContents();
+  assert.ok(rows.length > 5 && rows.length <= 60 && rows.some((text) => /ms.*head.*ground.*m.*m\/s/.test(text)), rows.join("\n"));
+  await picture(page, "plan");
+  return page;
+}
+
+/** On paper: all tabs, pictures of the motion, light colours, no empty page. */
+async function prints(open) {
+  const page = await open(two, undefined, "dark");
+  const bytes = (await page.pdf({ preferCSSPageSize: true, printBackground: true })).toString("latin1");
+  const sheets = bytes.match(/\/Type \/Page\b/g).length;
+  console.log(`  ${sheets} pages`);
+  // measured: 14
+  assert.ok(sheets >= 6 && sheets <= 22, `${sheets} pages`);
+  assert.match(bytes, /\/Type \/Catalog/);
+  // afterwards the page is as it was
+  assert.equal(await page.locator(".strip canvas").count(), 0);
+  assert.ok(!(await page.evaluate(() => document.documentElement.classList.contains("paper"))));
+  await page.emulateMedia({ media: "print", colorScheme: "dark" });
+  await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+  const found = await page.evaluate(() => {
+    const hues = [...document.querySelectorAll(".strip canvas")].map((one) => {
+      const { data } = one.getContext("2d").getImageData(0, 0, one.width, one.height);
+      return new Set(new Uint32Array(data.buffer)).size;
+    });
+    const style = (name) => getComputedStyle(document.querySelector(name));
+    return { hues, ground: style("body").backgroundColor, cut: [style(".plot"), style("tr"), style(".card")].map((one) => one.breakInside), closed: document.querySelectorAll("#report .group:not([open])").length, heading: style("h3").breakAfter };
+  });
+  assert.ok(found.hues.length === 6 && found.hues.every((count) => count > 100), `${found.hues}`);
+  assert.deepEqual([found.ground, found.closed, found.heading], ["rgb(255, 255, 255)", 0, "avoid"]);
+  assert.deepEqual(found.cut, ["avoid", "avoid", "avoid"]);
+  for (const name of ["driver", "passenger"]) assert.ok(await page.locator(`#measures-${name}`).isVisible(), name);
+  assert.ok(!(await page.locator(".occupants").isVisible()) && !(await page.locator("#stage").isVisible()));
+  await picture(page, "print");
+  await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+  await page.emulateMedia({ media: "screen" });
+  return page;
+}
+
+async function tellsFirst(open) {
+  const page = await open(judged);
   const place = async (what) => (await page.locator(what).first().boundingBox()).y;
-  const places = [await place("h1"), await place(".verdicts"), await place(".caveats"), await place("#stage")];
+  const places = [await place("h1"), await place("#stage"), await place(".verdicts"), await place(".caveats")];
   assert.deepEqual(places, [...places].sort((a, b) => a - b));
   assert.match(await page.locator(".card.failed").first().textContent(), /Nij.*failed, ≤ 1/);
   // a mark leads to its caveat

@@ -14,11 +14,17 @@ for case in cart-lap-torso cart-unbelted; do
   "$occupant" run "$root/tests/data/carts/$case.toml" --quiet --output "$out/$case.mcap"
 done
 "$occupant" report "$out/cart-lap-torso.mcap" --output "$out/report.html"
+"$occupant" report "$out/cart-lap-torso.mcap" --verdict --output "$out/judged.html"
+"$occupant" run "$root/tests/data/hand/side-by-side.toml" --quiet --output "$out/two.mcap" --set "time.end=80 ms"
+"$occupant" report "$out/two.mcap" --output "$out/two.html"
+"$occupant" run "$root/scenarios/pedestrian.toml" --quiet --output "$out/thrown.mcap"
+"$occupant" report "$out/thrown.mcap" --output "$out/thrown.html"
 "$occupant" report "$out/cart-lap-torso.mcap" --against "$out/cart-unbelted.mcap" --output "$out/comparison.html"
 study="$out/study"
 "$occupant" sweep "$root/scenarios/studies/screening-morris.toml" --output "$study" --quiet
 "$occupant" study report "$study" >/dev/null 2>&1
+cp "$study/report.html" "$out/study.html"
 
 cd "$here"
 [ -d node_modules/playwright-core ] || npm ci --no-audit --no-fund --silent
-node report.test.mjs "$out/report.html" "$out/comparison.html" "$study/report.html" ${pictures:+"$pictures"}
+node report.test.mjs "$out" ${pictures:+"$pictures"}

@@ -117,7 +117,7 @@ fn a_folder_that_is_not_there_is_named() {
     let folder = folder_with_case();
     let output = answer(folder.path(), &["run", "case.toml", "-o", "no/such/run.mcap"]);
     assert_eq!(code(&output), 2);
-    assert!(err(&output).contains("no/such/run.partial.mcap"), "{}", err(&output));
+    assert!(err(&output).replace('\\', "/").contains("no/such/run.partial.mcap"), "{}", err(&output));
 }
 
 /// Two processes write one name: the file is a whole run of one that said so, and no provisional one is left.

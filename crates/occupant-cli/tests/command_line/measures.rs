@@ -113,3 +113,51 @@ fn what_a_test_cannot_give_is_refused_with_its_mend() {
         assert!(err(&output).contains(expected), "{words:?}: {}", err(&output));
     }
 }
+
+/// Limits are made for dummies: a person's body gets no verdict, but a dummy's and one that is asked for.
+#[test]
+fn people_are_judged_only_if_asked() {
+    let folder = folder_with_case();
+    let run = |file: &str, set: &[&str]| {
+        let words = [&["run", "case.toml", "--quiet", "-o", file], set].concat();
+        assert_eq!(code(&answer(folder.path(), &words)), 0);
+    };
+    run("person.mcap", &[]);
+    let said = |words: &[&str]| out(&answer(folder.path(), &[&["measures"], words].concat()));
+    let (plain, asked) = (said(&["person.mcap"]), said(&["person.mcap", "--verdict"]));
+    let is_judged =
+        |text: &str| text.lines().any(|line| ["EXCEEDED", "% passed"].iter().any(|end| line.ends_with(end)));
+    assert!(!is_judged(&plain) && plain.contains("a dummy, FMVSS 208"), "{plain}");
+    assert!(is_judged(&asked) && !asked.contains("a dummy, FMVSS 208"), "{asked}");
+    run("dummy.mcap", &["--set", "body.chest=\"dummy50\"", "--set", "time.end=60 ms"]);
+    let dummy = said(&["dummy.mcap"]);
+    assert!(is_judged(&dummy) && dummy.contains("FMVSS 208") && !dummy.contains("a dummy, FMVSS 208"), "{dummy}");
+}
+
+/// A blow from the side is judged by rules for the side, also for a body without ribs; a rollover by none of a test.
+#[test]
+fn rules_are_those_for_the_direction_of_the_impact() {
+    let folder = folder_with_case();
+    let said = |set: &[&str]| {
+        let sets = set.iter().flat_map(|one| ["--set", one]);
+        let words: Vec<&str> =
+            ["run", "case.toml", "--quiet", "--force", "-o", "run.mcap"].into_iter().chain(sets).collect();
+        let ran = answer(folder.path(), &words);
+        assert_eq!(code(&ran), 0, "{}", err(&ran));
+        let measures = answer(folder.path(), &["measures", "run.mcap", "--json"]);
+        let told = json(&measures);
+        let rules: Vec<String> = told["measures"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|m| m["limits"].as_array().unwrap())
+            .map(|limit| limit["rule"].as_str().unwrap().to_owned())
+            .collect();
+        (told["notes"].to_string(), rules)
+    };
+    let (why, rules) = said(&["time.end=80 ms"]);
+    assert!(why.contains("Frontal impact") && rules.iter().any(|rule| rule == "FMVSS 208"), "{why} {rules:?}");
+    let (why, rules) = said(&["time.end=80 ms", "path.direction=[0, 1, 0]"]);
+    assert!(why.contains("Side impact from the right"), "{why}");
+    assert!(rules.iter().any(|rule| rule == "UN R95") && !rules.iter().any(|rule| rule == "FMVSS 208"), "{rules:?}");
+}

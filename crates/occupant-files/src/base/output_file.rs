@@ -383,7 +383,7 @@ mod tests {
 
     #[test]
     fn the_provisional_name_keeps_folder_and_ending() {
-        let name = |path: &str| partial_path(Path::new(path)).display().to_string();
+        let name = |path: &str| partial_path(Path::new(path)).display().to_string().replace('\\', "/");
         assert_eq!(name("a/run.mcap"), "a/run.partial.mcap");
         assert_eq!(name("run.1.mcap"), "run.1.partial.mcap");
         assert_eq!(name("run"), "run.partial");

@@ -19,6 +19,8 @@ const MOST_SPHERES: usize = 8;
 pub struct Plot {
     title: String,
     unit: String,
+    /// The occupant, of several.
+    occupant: Option<String>,
     curves: Vec<Curve>,
 }
 
@@ -70,7 +72,7 @@ pub fn own_plots(series: &Series, chosen: &[Channel], units: Units) -> Vec<Plot>
         let own = chosen.iter().filter(|c| c.unit.symbol() == unit).filter_map(|c| found(&c));
         let own = own.map(|i| (series.channels[i].name.clone(), &series.channels[i], &series.values[i]));
         let curves: Vec<Curve> = own.map(|found| curve(found, unit, per)).collect();
-        Plot { title: titled(&curves), unit: shown, curves }
+        Plot { title: titled(&curves), unit: shown, occupant: None, curves }
     };
     kinds.into_iter().map(plot).collect()
 }
@@ -101,6 +103,7 @@ pub fn plots(series: &Series, prefixes: &[String], units: Units) -> Vec<Plot> {
         Plot {
             title: format!("{title}{whose}"),
             unit: shown,
+            occupant: prefix.strip_suffix('.').map(str::to_owned),
             curves: found.into_iter().map(|f| curve(f, unit, per)).collect(),
         }
     });

@@ -8,18 +8,20 @@ use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::summary::{Caveat, Summary};
+use occupant_core::results::summary::{Caveat, Person, Summary};
 use occupant_core::vehicle::VehiclePath;
 use serde::Serialize;
 
 use super::array::Array;
 use super::curves::Plot;
+use super::ground::{Ground, GroundData};
 use super::measures::Measure;
 use super::motion::Motion;
 use super::ride_down::RideDown;
 use super::{curves, measures, provenance};
 use crate::base::{Failure, Units, file_name};
 use crate::files::history::choose;
+use crate::judged::{Impact, dummies};
 use occupant_files::mcap::scene::compartment::{corners_m, square_m};
 use occupant_files::results::Results;
 use occupant_pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
@@ -60,6 +62,8 @@ pub fn subject(labels: &[&str]) -> String {
 pub struct Run {
     label: String,
     title: String,
+    /// Direction of the impact, and why; of several occupants in one car once.
+    impacts: Vec<String>,
     /// Summary line of the run.
     facts: String,
     /// Notes to read before using the results.
@@ -78,9 +82,24 @@ pub struct Run {
     /// Display unit of forces and closing speeds: its size in kN and m/s, and its symbol.
     force_unit: (f64, String),
     speed_unit: (f64, String),
+    /// Display unit of lengths on the ground, in m.
+    length_unit: (f64, String),
     first_contacts: Vec<occupant_core::results::summary::ContactBegin>,
+    ground: GroundData,
+    /// Names of several occupants, each with the direction of its impact.
+    occupants: Vec<Occupant>,
     provenance: Vec<[String; 2]>,
     scenario: String,
+}
+
+/// An occupant of the run; the name of a single one is empty.
+#[derive(Debug, Serialize)]
+pub(super) struct Occupant {
+    pub(super) name: String,
+    /// The dummy of its limits.
+    pub(super) dummy: &'static str,
+    /// Whether it gets verdicts; else limits are yardsticks.
+    pub(super) judged: bool,
 }
 
 /// The convex hull of two ellipsoids, each centre x, y, z and half axes x, y, z, segment axes, m.
@@ -120,6 +139,8 @@ pub struct PageRecorder {
     series: Series,
     chosen: Vec<Channel>,
     ride: RideDown,
+    impact: Impact,
+    ground: Ground,
 }
 
 /// What a page tells of a run beside its outputs.
@@ -133,6 +154,8 @@ pub struct Source {
     pub origin: Vec<[String; 2]>,
     /// The scenario as its author wrote it.
     pub scenario: String,
+    /// Occupants with verdicts, empty for a single one: dummies. For others limits are yardsticks.
+    pub judged: Vec<String>,
 }
 
 impl PageRecorder {
@@ -143,12 +166,24 @@ impl PageRecorder {
     pub fn new(model: &Model, channels: &[String]) -> Result<Self, Failure> {
         let chosen = if channels.is_empty() { Vec::new() } else { choose(model, channels)? };
         let series = curves::series(model, &chosen);
-        Ok(PageRecorder { motion: Motion::default(), series, chosen, ride: RideDown::default() })
+        Ok(PageRecorder {
+            motion: Motion::default(),
+            series,
+            chosen,
+            ride: RideDown::default(),
+            impact: Impact::default(),
+            ground: Ground::default(),
+        })
     }
 
     /// The run on the page.
     pub fn run(self, model: &Model, summary: &Summary, told: Source, units: Units) -> Run {
-        let PageRecorder { motion, series, chosen, ride } = self;
+        let PageRecorder { motion, series, chosen, ride, impact, ground } = self;
+        let mut summary = summary.clone();
+        impact.judge(&mut summary, model);
+        let summary = &summary;
+        let occupants: Vec<Occupant> =
+            summary.people().into_iter().map(|one| Occupant::of(one, &told.judged)).collect();
         let mut times = Array::default();
         times.float64(&series.time_s);
         let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
@@ -164,6 +199,7 @@ impl PageRecorder {
         Run {
             label: told.label,
             title: model.setup().title.clone(),
+            impacts: impacts(&impact, model, units),
             facts: provenance::facts(model, summary, units),
             notes,
             caveats: caveats.iter().map(|caveat| caveat.text.clone()).collect(),
@@ -174,10 +210,13 @@ impl PageRecorder {
             surfaces: surfaces(model).into_iter().chain(sides(model)).chain(scenery(model)).collect(),
             motion,
             plots,
-            measures: measures::measures(summary, &ride, units),
+            measures: measures::measures(summary, &ride, &occupants, units),
             force_unit: units.over("kN"),
             speed_unit: units.over("m/s"),
+            length_unit: units.over("m"),
             first_contacts: summary.contacts.clone(),
+            ground: ground.data(model, summary),
+            occupants,
             provenance,
             scenario: told.scenario,
         }
@@ -186,15 +225,15 @@ impl PageRecorder {
 
 impl Recorder for PageRecorder {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
-        (&mut self.ride, (&mut self.motion, &mut self.series)).begin(model)
+        ((&mut self.impact, &mut self.ground), (&mut self.ride, (&mut self.motion, &mut self.series))).begin(model)
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        (&mut self.ride, (&mut self.motion, &mut self.series)).record(sample)
+        ((&mut self.impact, &mut self.ground), (&mut self.ride, (&mut self.motion, &mut self.series))).record(sample)
     }
 
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
-        (&mut self.ride, (&mut self.motion, &mut self.series)).end(outcome)
+        ((&mut self.impact, &mut self.ground), (&mut self.ride, (&mut self.motion, &mut self.series))).end(outcome)
     }
 }
 
@@ -209,6 +248,14 @@ impl Run {
     /// # Errors
     /// A name or pattern that fits no channel.
     pub fn of(results: &Results, channels: &[String], units: Units) -> Result<Self, Failure> {
+        Run::judged(results, channels, units, false)
+    }
+
+    /// The same, with `verdicts` on people too.
+    ///
+    /// # Errors
+    /// A name or pattern that fits no channel.
+    pub fn judged(results: &Results, channels: &[String], units: Units, verdicts: bool) -> Result<Self, Failure> {
         let mut gathered = PageRecorder::new(&results.model, channels)?;
         results.replay(&mut gathered)?;
         let told = Source {
@@ -216,8 +263,33 @@ impl Run {
             notes: results.notes(),
             origin: provenance::origin(results),
             scenario: results.scenario_text.clone().unwrap_or_default(),
+            judged: if verdicts { names(&results.model) } else { dummies(&results.loaded) },
         };
         Ok(gathered.run(&results.model, &results.summary()?, told, units))
+    }
+}
+
+/// Names of all bodies.
+fn names(model: &Model) -> Vec<String> {
+    model.body().tree.bodies().iter().map(|row| row.name.to_owned()).collect()
+}
+
+/// Directions of the impacts on the vehicles of all bodies, each once.
+fn impacts(impact: &Impact, model: &Model, units: Units) -> Vec<String> {
+    let mut all: Vec<String> = (0..names(model).len()).filter_map(|body| impact.reason(body, units)).collect();
+    all.dedup();
+    all
+}
+
+impl Occupant {
+    fn of((prefix, person): (String, Person), judged: &[String]) -> Self {
+        let name = prefix.trim_end_matches('.').to_owned();
+        Occupant { judged: judged.contains(&name), name, dummy: person.dummy }
+    }
+
+    pub(super) fn is_of(&self, text: &str) -> bool {
+        let owns = |word: &str| word.strip_prefix(&*self.name).is_some_and(|rest| rest.starts_with(['.', '_']));
+        !self.name.is_empty() && text.split_whitespace().any(owns)
     }
 }
 

@@ -7,6 +7,7 @@ use occupant_scenario::kind::UnitSystem;
 use occupant_units::unit::{Shown, Unit};
 use serde::Serialize;
 
+use super::data::Occupant;
 use super::ride_down::RideDown;
 use crate::base::Units;
 
@@ -21,6 +22,10 @@ pub struct Measure {
     time_s: Option<f64>,
     /// Largest value allowed, in the same unit.
     limit: Option<f64>,
+    /// The dummy of the limit.
+    dummy: Option<&'static str>,
+    /// The occupant, of several.
+    occupant: Option<String>,
     /// The rule that sets the limit.
     rule: Option<String>,
     /// `passed` or `failed`.
@@ -56,19 +61,23 @@ impl Measure {
 }
 
 /// All rows, by group.
-pub fn measures(summary: &Summary, ride: &RideDown, units: Units) -> Vec<Measure> {
-    let own = |(prefix, person): (String, Person)| {
+pub fn measures(summary: &Summary, ride: &RideDown, occupants: &[Occupant], units: Units) -> Vec<Measure> {
+    let own = |((prefix, person), occupant): ((String, Person), &Occupant)| {
         let rows: Vec<_> = person.measures.iter().flat_map(|m| injury_rows(m, units)).collect();
+        let (judged, dummy) = (occupant.judged, occupant.dummy);
         rows.into_iter().map(move |row| Measure {
+            verdict: row.verdict.filter(|_| judged),
+            dummy: row.limit.map(|_| dummy),
             name: format!("{prefix}{}", row.name),
             figure: format!("{prefix}{}", row.figure),
             ..row
         })
     };
-    let mut rows: Vec<_> = summary.people().into_iter().flat_map(own).collect();
+    let mut rows: Vec<_> = summary.people().into_iter().zip(occupants).flat_map(own).collect();
     add_loads(&mut rows, summary, units);
     add_excursion(&mut rows, summary, units);
     add_ejections(&mut rows, summary);
+    add_throws(&mut rows, summary, units);
     add_ride_down(&mut rows, ride, units);
     let energy = &summary.energy;
     let group = "Energy";
@@ -81,7 +90,11 @@ pub fn measures(summary: &Summary, ride: &RideDown, units: Units) -> Vec<Measure
     let kinetic = "Largest kinetic energy, relative to the vehicle";
     let joule = engineering(Unit::Joule, units);
     add(kinetic, "energy.greatest_kinetic", energy.greatest_kinetic_j * joule.per_si(), joule);
-    rows.into_iter().map(|row| row.judged(&summary.caveats)).collect()
+    let whose = |row: Measure| {
+        let occupant = occupants.iter().find(|one| one.is_of(&row.name)).map(|one| one.name.clone());
+        Measure { occupant, ..row }
+    };
+    rows.into_iter().map(|row| whose(row.judged(&summary.caveats))).collect()
 }
 
 /// A row per limit of an injury measure, or one without.
@@ -207,6 +220,55 @@ fn add_ejections(rows: &mut Vec<Measure>, summary: &Summary) {
             let words = format!("{} leaves {}{past}", exit.part.replace('_', " "), exit.side.words());
             Measure { time_s: Some(exit.time_s), ..row(words) }
         }));
+    }
+}
+
+/// Distances and speeds of thrown bodies, with Searle's bounds.
+fn add_throws(rows: &mut Vec<Measure>, summary: &Summary, units: Units) {
+    let is_inch_pound = units.system == UnitSystem::InchPound;
+    // ways of metres
+    let shown = |unit: Unit| if is_inch_pound { unit.shown_to_people(true) } else { unit.shown() };
+    for (name, throw) in &summary.throws {
+        let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
+        let mut add =
+            |name: &str, figure: &str, value: Option<f64>, unit: Shown, time_s: Option<f64>, remark: Option<String>| {
+                let Some(value) = value else { return };
+                let own = Measure::new("Throw", format!("{prefix}{name}"), format!("{prefix}throw.{figure}"), unit);
+                rows.push(Measure { value: Some(value * unit.per_si()), time_s, remark, ..own });
+            };
+        let (m, m_s) = (shown(Unit::Metre), shown(Unit::MetrePerSecond));
+        let (launch, landing) = (throw.launch.as_ref(), throw.landing.as_ref());
+        let so_far = (!throw.at_rest).then(|| "so far: the body still moves at the end of the run".to_owned());
+        add("throw distance", "distance", Some(throw.distance_m), m, Some(throw.struck_s), so_far);
+        let at_s = launch.map(|l| l.time_s);
+        add("launch, speed", "launch_speed", launch.map(|l| l.speed_m_s), m_s, at_s, None);
+        let angle = launch.map(|l| l.angle_deg.to_radians());
+        add(
+            "launch, angle above the horizontal",
+            "launch_angle",
+            angle,
+            Unit::Radian.shown_to_people(false),
+            at_s,
+            None,
+        );
+        let touched = landing.map(|l| format!("{} first", l.sphere));
+        let at_s = landing.map(|l| l.time_s);
+        add("landing, speed", "landing_speed", landing.map(|l| l.speed_m_s), m_s, at_s, touched);
+        add("airborne", "airborne_distance", throw.airborne_m, m, None, None);
+        add("sliding", "slide_distance", throw.slide_m, m, None, None);
+        add("greatest height gained", "height", Some(throw.height_m), m, None, None);
+        let Some(searle) = &throw.searle else { continue };
+        let friction = format!(
+            "from the throw distance, with friction {:.2} and a fall of {:.2} m",
+            searle.friction, searle.fall_m
+        );
+        add("Searle, least speed", "searle_least_speed", Some(searle.speeds_m_s[0]), m_s, None, None);
+        add("Searle, greatest speed", "searle_greatest_speed", Some(searle.speeds_m_s[1]), m_s, None, Some(friction));
+        let drag = searle.drag_factor.map(|drag| {
+            format!("the run went {:.2} m: a drag factor of {drag:.2}", throw.from_launch_m.unwrap_or(f64::NAN))
+        });
+        add("Searle, least distance at the launch speed", "from_launch", Some(searle.distances_m[0]), m, None, None);
+        add("Searle, greatest distance at the launch speed", "from_launch", Some(searle.distances_m[1]), m, None, drag);
     }
 }
 

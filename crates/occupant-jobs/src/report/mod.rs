@@ -6,6 +6,7 @@
 mod array;
 mod curves;
 mod data;
+mod ground;
 mod measures;
 mod motion;
 mod page;
@@ -26,7 +27,15 @@ pub const MOST_RUNS: usize = 4;
 /// # Errors
 /// A name or pattern that fits no channel.
 pub fn page(runs: &[Results], channels: &[String], units: Units) -> Result<String, Failure> {
+    page_judged(runs, channels, units, false)
+}
+
+/// The same, with `verdicts` on people too.
+///
+/// # Errors
+/// A name or pattern that fits no channel.
+pub fn page_judged(runs: &[Results], channels: &[String], units: Units, verdicts: bool) -> Result<String, Failure> {
     let vehicles = vehicles::vehicles(runs, units);
-    let runs = runs.iter().map(|run| Run::of(run, channels, units)).collect::<Result<_, _>>()?;
+    let runs = runs.iter().map(|run| Run::judged(run, channels, units, verdicts)).collect::<Result<_, _>>()?;
     page::fill(&Report { program: program(), runs }, vehicles)
 }

@@ -47,6 +47,8 @@ pub fn quoted(word: &str) -> Option<String> {
 mod tests {
     use super::quoted;
 
+    /// A shell of POSIX: Windows has none of its own.
+    #[cfg(unix)]
     #[test]
     fn a_shell_reads_back_what_was_quoted() {
         let words = [

@@ -5,10 +5,11 @@ import { buildControls } from "../../../occupant-jobs/assets/viewer/src/controls
 import { readReport } from "../../../occupant-jobs/assets/viewer/src/data.js";
 import { element } from "../../../occupant-jobs/assets/viewer/src/dom.js";
 import { listenToKeys } from "../../../occupant-jobs/assets/viewer/src/keyboard.js";
-import { caveats, notes, swatch } from "../../../occupant-jobs/assets/viewer/src/page.js";
+import { caveats, impacts, notes, swatch } from "../../../occupant-jobs/assets/viewer/src/page.js";
 import { buildPlots } from "../../../occupant-jobs/assets/viewer/src/plots.js";
 import { Stage } from "../../../occupant-jobs/assets/viewer/src/stage.js";
 import { buildTables, buildVerdicts } from "../../../occupant-jobs/assets/viewer/src/tables.js";
+import { buildTabs, showOccupant } from "../../../occupant-jobs/assets/viewer/src/tabs.js";
 
 /** A run with its arrays as typed arrays. */
 export function readRun(run) {
@@ -81,6 +82,7 @@ export class View {
     this.plots.replaceChildren();
     this.removePlots = buildPlots(this.plots, runs, clock);
     this.plots.scrollTop = scrolled;
+    showOccupant(runs);
     if (before) clock.seek(before.time);
     if (before ? before.playing : true) clock.play();
   }
@@ -106,13 +108,15 @@ export class View {
     );
     this.heading.classList.toggle("several", several);
     this.heading.replaceChildren(element("h2", {}, runs[0].title || runs[0].label), ...lines);
-    this.verdicts.replaceChildren(buildVerdicts(runs));
+    const tabs = buildTabs(runs);
+    const struck = runs.map((run) => impacts(run, several)).filter((part) => part !== null);
+    this.verdicts.replaceChildren(...struck, ...(tabs ? [tabs] : []), buildVerdicts(runs));
     const said = runs.flatMap((run) => notes(run, several));
     const spoils = runs.map((run, number) => caveats(run, number, several));
     this.caveats.replaceChildren(...said, ...spoils.filter((part) => part !== null));
     const open = [...this.tables.querySelectorAll("details")].map((fold) => fold.open);
     this.tables.replaceChildren();
     buildTables(this.tables, runs, this.clock);
-    this.tables.querySelectorAll("details").forEach((fold, i) => (fold.open = Boolean(open[i])));
+    this.tables.querySelectorAll("details").forEach((fold, i) => (fold.open = open[i] ?? fold.open));
   }
 }

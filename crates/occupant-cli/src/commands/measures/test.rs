@@ -82,7 +82,7 @@ impl Judged {
         );
         let marks = Marks::default();
         let measures = &self.measures;
-        let parts = [table(measures, &marks, units), risks(measures, &marks), remarks(measures)];
+        let parts = [table(measures, &marks, units, true), risks(measures, &marks), remarks(measures)];
         let filled = parts.into_iter().filter(|part| !part.is_empty());
         let read = format!("read from\n{}", self.columns());
         [head].into_iter().chain(filled).chain([read, JUDGEMENT.to_owned()]).collect::<Vec<_>>().join("\n")

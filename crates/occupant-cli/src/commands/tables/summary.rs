@@ -67,7 +67,13 @@ impl<'a> Marks<'a> {
 }
 
 /// The summary: title, accelerations, force elements, first contacts, caveats.
-pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks, units: Units) -> String {
+pub(crate) fn summary_table(
+    summary: &Summary,
+    written: &Written,
+    marks: &Marks,
+    units: Units,
+    dummies: &[String],
+) -> String {
     let mut parts = vec![title(summary), accelerations(summary, marks)];
     parts.extend(elements::texts(&summary.elements, marks, units));
     parts.extend(events(&summary.events, summary.more_events));
@@ -75,7 +81,9 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks,
         parts.push(first_contacts(summary, marks, units));
     }
     for (prefix, person) in summary.people() {
-        let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix), units);
+        let brief = person.measures.iter().filter(|m| m.brief);
+        let judged = dummies.iter().any(|name| name == prefix.trim_end_matches('.'));
+        let own = measures::table(brief, &marks.of_occupant(&prefix), units, judged);
         parts.push(if prefix.is_empty() { own } else { format!("{}\n{own}", shown(prefix.trim_end_matches('.'))) });
     }
     parts.extend(ejections(summary, marks));

@@ -5,6 +5,10 @@ import { element, figures } from "./dom.js";
 
 /** Contacts with less force have no label, N. */
 const LEAST_N = 5;
+/** Size of a letter, of a line, and lines that a label may move down not to cover another. */
+const LETTER_PX = 6.2;
+const LINE_PX = 17;
+const MOST_ROWS = 4;
 
 export class Labels {
   constructor(place, actor, camera) {
@@ -36,6 +40,7 @@ export class Labels {
   place() {
     if (!this.shown) return;
     const size = [this.layer.clientWidth, this.layer.clientHeight];
+    this.taken = [];
     for (const { label, centre, group, surface } of this.surfaces) {
       const follows = surface.frame === "space" && !surface.bounded;
       label.hidden = follows || !this.actor.shown.surfaces;
@@ -73,7 +78,26 @@ export class Labels {
     label.hidden = label.hidden || at.z > 1;
     const x = (0.5 + 0.5 * at.x) * width;
     const y = (0.5 - 0.5 * at.y) * height;
-    label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    if (label.hidden) return;
+    const wide = LETTER_PX * label.textContent.length + 6;
+    const left = Math.max(0, Math.min(x, width - wide));
+    const top = this.free(left, y, wide);
+    label.hidden = top === null;
+    label.style.transform = `translate(${left.toFixed(1)}px, ${(top ?? y).toFixed(1)}px)`;
+  }
+
+  /** The nearest height at or below `top` where no other label is; none if that is far away. */
+  free(left, top, wide) {
+    for (let row = 0; row < MOST_ROWS; row++, top += LINE_PX) {
+      const isTaken = this.taken.some(
+        (other) =>
+          left < other.right && left + wide > other.left && Math.abs(top - other.top) < LINE_PX,
+      );
+      if (isTaken) continue;
+      this.taken.push({ left, right: left + wide, top });
+      return top;
+    }
+    return null;
   }
 }
 

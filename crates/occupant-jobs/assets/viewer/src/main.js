@@ -8,6 +8,8 @@ import { buildControls } from "./controls.js";
 import { buildPlots } from "./plots.js";
 import { buildTables } from "./tables.js";
 import { listenToKeys } from "./keyboard.js";
+import { listenToPrint } from "./print.js";
+import { showOccupant } from "./tabs.js";
 
 const report = readReport(document.getElementById("report-data").textContent);
 const page = buildPage(document.getElementById("report"), report);
@@ -21,8 +23,10 @@ try {
   page.stage.textContent = `This browser gives no 3-D drawing (WebGL): ${error.message}`;
 }
 buildControls(page.controls, clock, stage, report.runs);
-buildPlots(page.plots, report.runs, clock);
+const plots = buildPlots(page.plots, report.runs, clock);
 buildTables(page.tables, report.runs, clock);
+showOccupant(report.runs);
+listenToPrint(page.strip, clock, stage, plots);
 listenToKeys(() => ({ clock, stage }));
 
 // for scripts and tests

@@ -2,6 +2,7 @@
 
 import { element } from "./dom.js";
 import { buildVerdicts } from "./tables.js";
+import { buildTabs } from "./tabs.js";
 
 export function buildPage(root, report) {
   const runs = report.runs;
@@ -10,18 +11,25 @@ export function buildPage(root, report) {
   const plots = element("section", { class: "plots", "aria-label": "Time histories" });
   const tables = element("section", { class: "tables", "aria-label": "Results in numbers" });
   const scene = element("section", { class: "scene", "aria-label": "Motion" }, stage, controls);
-  const parts = [
-    heading(runs),
+  const strip = element("div", { class: "strip" });
+  const said = [
     ...runs.flatMap((run) => notes(run, runs.length > 1)),
-    buildVerdicts(runs),
     ...runs.map((run, number) => caveats(run, number, runs.length > 1)),
+  ].filter((part) => part !== null);
+  const parts = [
+    heading(runs, said.length > 0),
+    strip,
     element("main", {}, scene, element("div", { class: "beside" }, plots)),
+    ...runs.map((run) => impacts(run, runs.length > 1)),
+    buildTabs(runs),
+    buildVerdicts(runs),
+    said.length > 0 ? element("section", { id: "said", "aria-label": "Notes" }, ...said) : null,
     tables,
     footer(report),
   ];
   // a run without caveats has no part for them
   root.append(...parts.filter((part) => part !== null));
-  return { stage, controls, plots, tables };
+  return { stage, controls, plots, tables, strip };
 }
 
 function footer(report) {
@@ -39,14 +47,36 @@ function footer(report) {
   );
 }
 
-function heading(runs) {
+/** Which way the vehicles were struck, as the path tells. */
+export function impacts(run, several) {
+  if (run.impacts.length === 0) return null;
+  const whose = several ? `${run.label}: ` : "";
+  return element("p", { class: "impact" }, whose + run.impacts.join("; "));
+}
+
+function heading(runs, isSaid) {
   const [first, ...others] = runs;
   const title = element("h1", {}, first.title || first.label);
-  const own = element("p", {}, others.length ? swatch(0) : null, `${first.label}: ${first.facts}`);
-  const against = others.map((run, i) =>
-    element("p", {}, swatch(i + 1), `against ${run.label}, ${run.title}: ${run.facts}`),
+  const own = element(
+    "p",
+    { class: "facts" },
+    others.length ? swatch(0) : null,
+    `${first.label}: ${first.facts}`,
   );
-  return element("header", {}, title, own, ...against);
+  const against = others.map((run, i) =>
+    element(
+      "p",
+      { class: "facts" },
+      swatch(i + 1),
+      `against ${run.label}, ${run.title}: ${run.facts}`,
+    ),
+  );
+  const said = element(
+    "a",
+    { href: "#said" },
+    "Read the notes and caveats before you quote a number.",
+  );
+  return element("header", {}, title, own, ...against, isSaid ? element("p", {}, said) : null);
 }
 
 /** A patch of the colour of a run. */

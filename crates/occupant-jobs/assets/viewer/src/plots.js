@@ -3,8 +3,11 @@
 import uPlot from "uplot";
 import { locate } from "./data.js";
 import { element, figures } from "./dom.js";
+import { own } from "./tabs.js";
 
 const HEIGHT = 170;
+/** Width of a plot on paper, px. */
+const PAPER = 330;
 /** Colours of curves, legible on light and dark ground. */
 const COLORS = [
   "#3b82c4",
@@ -22,7 +25,7 @@ const STILL_PX = 4;
 const LEGEND_MS = 100;
 
 export function buildPlots(root, runs, clock) {
-  const charts = runs[0].plots.map((plot) => new Chart(root, plot.title, runs, clock));
+  const charts = runs[0].plots.map((plot) => new Chart(root, plot, runs, clock));
   const width = new ResizeObserver(() => charts.forEach((chart) => chart.fit()));
   width.observe(root);
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -36,11 +39,14 @@ export function buildPlots(root, runs, clock) {
     for (const chart of charts) chart.show(clock.time, tell);
   });
   /** Takes the plots away. */
-  return () => {
+  const release = () => {
     width.disconnect();
     dark.removeEventListener("change", redraw);
     for (const chart of charts) chart.release();
   };
+  /** Draws the plots in the colours and the width of now. */
+  release.fit = () => charts.forEach((chart) => chart.repaint());
+  return release;
 }
 
 /** How the lines of the runs are broken, and the classes of their legends. */
@@ -63,7 +69,7 @@ function curvesOf(title, runs) {
 }
 
 class Chart {
-  constructor(root, title, runs, clock) {
+  constructor(root, { title, occupant }, runs, clock) {
     this.curves = curvesOf(title, runs);
     const unit = runs[0].plots.find((p) => p.title === title).unit;
     this.values = this.curves.map(() => element("b", {}));
@@ -79,7 +85,7 @@ class Chart {
     const legends = element("div", { class: "legend" }, ...legend);
     this.figure = element(
       "figure",
-      { class: "plot", "data-title": title },
+      { class: "plot", "data-title": title, ...own(occupant) },
       head,
       legends,
       this.place,
@@ -161,6 +167,14 @@ class Chart {
       clock.pause();
       clock.seek(this.chart.posToVal(left, "x") / 1e3);
     });
+  }
+
+  /** On paper as wide as a column, else as its place. */
+  repaint() {
+    const isPaper = document.documentElement.classList.contains("paper");
+    const width = isPaper ? PAPER : this.place.clientWidth;
+    if (width > 0) this.chart.setSize({ width, height: HEIGHT });
+    this.chart.redraw();
   }
 
   fit() {

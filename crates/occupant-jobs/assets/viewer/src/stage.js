@@ -160,13 +160,18 @@ export class Stage {
     actor.group.updateMatrixWorld(true);
   }
 
+  /** Draws now. */
+  render() {
+    this.renderer.render(this.scene, this.camera);
+  }
+
   draw() {
     if (this.pending) return;
     this.pending = true;
     requestAnimationFrame((now) => {
       this.pending = false;
       this.resolution.drawn(now);
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       this.labels.place();
       this.gone.splice(0).forEach((actor) => actor.release());
       this.frames += 1;

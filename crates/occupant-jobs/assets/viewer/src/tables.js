@@ -1,23 +1,55 @@
 // The run in numbers: measures against limits, contacts, energy, provenance, scenario.
 
 import { element, figures, milliseconds } from "./dom.js";
+import { buildPlan, groundRows } from "./ground.js";
 import { caveatName, swatch } from "./page.js";
+import { occupantsOf, panel } from "./tabs.js";
 
 export function buildTables(root, runs, clock) {
-  root.append(measures(runs, clock), provenance(runs));
+  const names = occupantsOf(runs);
+  const shown = names.length > 1 ? names : [];
+  const panels = shown.map((name) => panel(name, "measures", measures(runs, clock, name)));
+  root.append(...panels, measures(runs, clock, null), ground(runs, clock), provenance(runs));
   for (const run of runs) root.append(scenario(run, runs.length > 1));
 }
 
-/** Every measure that has a limit, with its verdict; the same limit of several rules once. */
+/** Whether a row is of the occupant, or with none named of all; of a single one all are. */
+const isOf = (m, name, runs) => occupantsOf(runs).length < 2 || (m.occupant ?? null) === name;
+
+/** The name of a row in the table of its occupant. */
+const shortName = (m) =>
+  m.occupant && m.name.startsWith(`${m.occupant}.`) ? m.name.slice(m.occupant.length + 1) : m.name;
+
+/** Every measure that has a limit; the same limit of several rules once. A panel for each of several occupants. */
 export function buildVerdicts(runs) {
-  const judged = runs[0].measures.filter((m) => m.limit !== null);
+  const names = occupantsOf(runs);
+  if (names.length < 2) return tiles(runs, null);
+  return element(
+    "div",
+    { class: "judged" },
+    ...names.map((name) => panel(name, "verdicts", tiles(runs, name))),
+  );
+}
+
+function tiles(runs, name) {
+  const judged = runs[0].measures.filter((m) => m.limit !== null && isOf(m, name, runs));
   const cards = [];
   for (const m of judged) {
     const known = cards.find((card) => card.name === m.name && card.limit === m.limit);
     if (known) known.rules.push(m.rule);
     else cards.push({ ...m, rules: [m.rule] });
   }
-  return element("section", { class: "verdicts", "aria-label": "Verdicts" }, ...cards.map(verdict));
+  const isJudged = judged.some((m) => m.verdict !== null);
+  const label = isJudged ? "Verdicts" : "Measures beside limits of dummies";
+  const words = "Limits made for dummies: for a person's body they are yardsticks, no verdicts.";
+  const yardsticks =
+    cards.length > 0 && !isJudged ? element("p", { class: "yardsticks" }, words) : null;
+  return element(
+    "section",
+    { class: "verdicts", "aria-label": label },
+    yardsticks,
+    ...cards.map(verdict),
+  );
 
   function verdict(card) {
     const own = runs.map((run, number) => {
@@ -25,13 +57,16 @@ export function buildVerdicts(runs) {
       if (!m) return null;
       const value = [`${figures(m.value)} ${m.unit}`, ...marks(m, number)];
       const sign = runs.length > 1 ? swatch(number) : null;
-      return element("b", { class: `verdict ${m.verdict}` }, sign, ...value);
+      return element("b", { class: `verdict ${m.verdict ?? ""}` }, sign, ...value);
     });
-    const limit = `${card.verdict}, ≤ ${figures(card.limit)} of ${card.rules.join(", ")}`;
+    const rules = card.rules.join(", ");
+    const limit = card.verdict
+      ? `${card.verdict}, ≤ ${figures(card.limit)} of ${rules}`
+      : `limit of a dummy ${figures(card.limit)} (${card.dummy}), ${rules}`;
     return element(
       "div",
-      { class: `card ${card.verdict}` },
-      element("span", {}, card.name),
+      { class: `card ${card.verdict ?? "open"}` },
+      element("span", {}, shortName(card)),
       ...own,
       element("small", {}, limit),
     );
@@ -80,16 +115,22 @@ function timeCell(time, clock) {
 }
 
 /** A table of each group, as many beside each other as there is room for. */
-function measures(runs, clock) {
+function measures(runs, clock, occupant) {
   const keys = [];
-  for (const m of runs.flatMap((run) => run.measures)) {
+  for (const m of runs.flatMap((run) => run.measures).filter((m) => isOf(m, occupant, runs))) {
     if (!keys.some((key) => isSame(key, m))) keys.push(m);
   }
   const names = [...new Set(keys.map((key) => key.group))];
   const groups = names.map((name) => group(name, keys, runs, clock));
   const columns = runs.length > 1 ? "groups wide" : "groups";
-  const all = element("div", { class: columns }, ...groups, ...contacts(runs, clock));
-  return section("All measures", all);
+  const all = element("div", { class: columns }, ...groups, ...contacts(runs, clock, occupant));
+  const several = occupantsOf(runs).length > 1;
+  const title = occupant
+    ? `All measures of ${occupant.replaceAll("_", " ")}`
+    : several
+      ? "Common to all"
+      : "All measures";
+  return section(title, all);
 }
 
 /** Whether two rows tell of one measure against one rule. */
@@ -117,13 +158,21 @@ function group(name, keys, runs, clock) {
       columns.map((column) => (m ? column.cell(m, run, clock) : element("td", {}, "–"))),
     );
     const rule = isRuled ? element("td", {}, key.rule ?? "") : null;
-    const row = element("tr", {}, element("th", { scope: "row" }, key.name), ...cells, rule);
+    const row = element("tr", {}, element("th", { scope: "row" }, shortName(key)), ...cells, rule);
     if (!key.remark) return [row];
     row.classList.add("remarked");
     const remark = element("td", { class: "remark", colspan: head.length }, key.remark);
     return [row, element("tr", {}, remark)];
   });
-  return element("section", {}, element("h3", {}, name), table(head, body));
+  return folding(name, table(head, body));
+}
+
+/** Folded on a phone, where all groups below each other are many screens. */
+const isWide = () => window.matchMedia("(min-width: 700px)").matches;
+
+function folding(title, ...children) {
+  const heading = element("summary", {}, element("h3", {}, ...[title].flat()));
+  return element("details", { class: "group", open: isWide() }, heading, ...children);
 }
 
 /** Columns of a run's measures; one without a value of its field in any row is left out. */
@@ -133,15 +182,17 @@ const COLUMNS = [
   {
     head: "limit",
     field: "limit",
-    cell: (m) =>
-      element("td", { class: "number" }, m.limit === null ? "" : `≤ ${figures(m.limit)}`),
+    cell: (m) => element("td", { class: "number" }, m.limit === null ? "" : limitText(m)),
   },
   {
     head: "verdict",
     field: "verdict",
-    cell: (m) => element("td", { class: `verdict ${m.verdict}` }, m.verdict ?? ""),
+    cell: (m) => element("td", { class: `verdict ${m.verdict ?? ""}` }, m.verdict ?? ""),
   },
 ];
+
+/** A limit; one without a verdict is of a dummy. */
+const limitText = (m) => (m.verdict ? `≤ ${figures(m.limit)}` : `${figures(m.limit)} of a dummy`);
 
 function valueCell(m, run) {
   // what rounds to nothing is nothing, but where a small part of something counts
@@ -151,9 +202,33 @@ function valueCell(m, run) {
   return element("td", { class: "number" }, text, ...marks(m, run));
 }
 
-function contacts(runs, clock) {
+/** A longer list of contacts with the ground is folded. */
+const MOST_ROWS = 20;
+
+/** The ground in plan and all contacts with it, of runs with either. */
+function ground(runs, clock) {
+  const parts = runs.flatMap((run, number) => {
+    const plan = buildPlan(run);
+    const rows = groundRows(run, clock, timeCell);
+    if (!plan && rows.length === 0) return [];
+    const whose = runs.length > 1 ? [swatch(number), run.label] : ["Contacts with the ground"];
+    const more = run.ground.more > 0 ? element("p", {}, `and ${run.ground.more} more`) : null;
+    const head = ["Time", "Segment", "Ground", "Place X, Y", "Speed"];
+    const list = rows.length > 0 ? table(head, rows) : null;
+    const fold = folding(whose, list, more);
+    if (rows.length > MOST_ROWS) fold.open = false;
+    return [plan ? element("figure", { class: "planned" }, plan) : null, fold];
+  });
+  return parts.length > 0 ? section("On the ground", ...parts) : "";
+}
+
+function contacts(runs, clock, occupant) {
+  const names = occupantsOf(runs);
+  const ownerOf = (c) => names.find((name) => c.part.startsWith(`${name}.`)) ?? null;
+  if (names.length > 1 && occupant === null) return [];
   return runs.map((run, number) => {
-    const rows = run.first_contacts.map((c) =>
+    const own = run.first_contacts.filter((c) => names.length < 2 || ownerOf(c) === occupant);
+    const rows = own.map((c) =>
       element(
         "tr",
         {},
@@ -174,7 +249,7 @@ function contacts(runs, clock) {
     const none = element("p", {}, "Nothing touched anything.");
     const list =
       rows.length > 0 ? table(["Time", "Sphere", "Surface", "Closing speed"], rows) : none;
-    return element("section", {}, element("h3", {}, ...whose), list);
+    return folding(whose, list);
   });
 }
 
@@ -193,15 +268,15 @@ function provenance(runs) {
     "",
     ...runs.map((run, number) => (runs.length > 1 ? [swatch(number), run.label] : run.label)),
   ];
-  return folded("Where it comes from", table(head, rows));
+  return folded("Where it comes from", "origin", table(head, rows));
 }
 
 function scenario(run, several) {
   const title = several ? `Scenario of ${run.label}` : "Scenario";
   const text = element("pre", { tabindex: "0" }, run.scenario);
-  return folded(title, text);
+  return folded(title, "scenario", text);
 }
 
-function folded(title, ...children) {
-  return element("details", { class: "scenario" }, element("summary", {}, title), ...children);
+function folded(title, name, ...children) {
+  return element("details", { class: name }, element("summary", {}, title), ...children);
 }
