@@ -2,13 +2,16 @@
 
 use super::inputs::Input;
 use super::pack::Part;
-use super::sheet::{COLUMNS, Sheet};
+use super::sheet::{COLUMNS, Row, Sheet, shown};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use occupant_files::base::{ending, sha256};
 use occupant_files::results::Results;
 use occupant_pictures::html::{Cell, Html};
 use std::path::Path;
+
+/// Axes and angles of the motion.
+const AXES: &str = "Centres of gravity in vehicle-space (SAE J670): X forward, Y right, Z down. Yaw to the right, pitch nose up, roll right side down, as for vehicles; a segment that is upright and looks forward in a vehicle has its angles. Near a pitch of 90°, as of a sitter's thigh, only the sum or the difference of yaw and roll is certain.";
 
 const SCRIPT: &str = include_str!("../../assets/seal/verify.js");
 
@@ -30,7 +33,7 @@ pub(super) fn section(
     html.text("h3", "Parts");
     let rows: Vec<Vec<Cell>> = parts.iter().map(row_of_part).collect();
     html.table(&["part", "bytes", "SHA-256"], &rows);
-    shown(&mut html, parts);
+    pictures(&mut html, parts);
     html.fold(&format!("Values that were set: {}", inputs.len()));
     let rows: Vec<Vec<Cell>> = inputs.iter().map(row_of_input).collect();
     html.table(&["key", "value", "where", "preset or earlier value"], &rows);
@@ -42,7 +45,8 @@ pub(super) fn section(
         html.text("pre", &String::from_utf8_lossy(&part.bytes));
         html.unfold();
     }
-    html.fold("Motion every 1/20 s, in space: X forward, Y left, Z up");
+    html.fold("Motion every 1/20 s");
+    html.text("p", AXES);
     let rows: Vec<Vec<Cell>> = sheet.0.iter().map(row_of_sheet).collect();
     html.table(&COLUMNS, &rows);
     html.unfold();
@@ -58,13 +62,14 @@ fn row_of_input(input: &Input) -> Vec<Cell> {
     [&input.path, &input.value, &input.place, &input.default].map(|text| Cell::Words(text.clone())).to_vec()
 }
 
-fn row_of_sheet((part, time_s, row): &(String, f64, [f64; 7])) -> Vec<Cell> {
-    let numbers = std::iter::once(time_s).chain(row).map(|value| Cell::Number(format!("{value:.3}")));
-    std::iter::once(Cell::Words(part.clone())).chain(numbers).collect()
+fn row_of_sheet(row: &Row) -> Vec<Cell> {
+    let numbers = std::iter::once(Some(row.time_s)).chain(row.values);
+    let numbers = numbers.map(|value| Cell::Number(shown(value, |x| format!("{x:.3}"))));
+    std::iter::once(Cell::Words(row.part.clone())).chain(numbers).collect()
 }
 
 /// Pictures and films among the parts.
-fn shown(html: &mut Html, parts: &[Part]) {
+fn pictures(html: &mut Html, parts: &[Part]) {
     for part in parts {
         let kind = ending(Path::new(&part.name));
         if ["png", "gif"].contains(&&*kind) {
