@@ -190,6 +190,14 @@ impl Draft {
         Loaded::from_draft(self, resolver)
     }
 
+    /// The explicit scenario without the written values that `is_left_out` chooses by path: what presets and the car give
+    /// for them stands in their places.
+    pub fn without(&self, is_left_out: &dyn Fn(&[Step], &Node) -> bool) -> Document {
+        let Document { mut sources, main, mut root } = self.document.clone();
+        leave_out(&mut root, &mut Vec::new(), is_left_out);
+        Document { root: expand(&mut sources, &root), sources, main }
+    }
+
     fn explicit(&mut self) -> Node {
         if let Some(ready) = self.ready.as_ref().filter(|ready| shares(&ready.root, &self.document.root)) {
             return ready.explicit_root.clone();
@@ -219,6 +227,18 @@ fn imply_error_control(root: &mut Node) {
         let kind = Entry { key_span: *key_span, node };
         table.insert("kind".to_owned(), kind);
     }
+}
+
+/// Removes the values below a table that `is_left_out` chooses; a list is one value.
+fn leave_out(node: &mut Node, path: &mut Vec<Step>, is_left_out: &dyn Fn(&[Step], &Node) -> bool) {
+    let Some(table) = node.as_table_mut() else { return };
+    table.retain(|key, entry| {
+        path.push(Step::Key(key.clone()));
+        leave_out(&mut entry.node, path, is_left_out);
+        let is_kept = entry.node.as_table().is_some() || !is_left_out(path, &entry.node);
+        path.pop();
+        is_kept
+    });
 }
 
 fn leads_nowhere(source: &str, path: &str) -> Diagnostics {
