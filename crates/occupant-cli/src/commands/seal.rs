@@ -6,7 +6,8 @@ use crate::base::{
     Done, Failure, deliver, file_name, input_file, is_page, print, program, publish, refuse_input, say, sha256,
 };
 use occupant_files::results::Results;
-use occupant_jobs::seal::{Case, Part, RUN, Same, again, seal as sealed};
+use occupant_jobs::seal::{Beside, Case, Part, RUN, Same, again, seal as sealed};
+use occupant_jobs::sweep::stored::{MadeBy, open as open_study};
 
 /// Seal a run with its inputs in one HTML file, or verify such a file
 ///
@@ -22,9 +23,14 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "FILE.html", conflicts_with_all = ["verify", "extract"])]
     output: Option<PathBuf>,
 
-    /// Add a file: a film (GIF or PNG, shown on the page), tables of intervals of a study (shown as text). May be repeated
+    /// Add a file: a film (GIF or PNG, shown on the page), tables and texts (shown as text). May be repeated
     #[arg(long, value_name = "FILE", conflicts_with_all = ["verify", "extract"])]
     add: Vec<PathBuf>,
+
+    /// Quote a study of the scenario: quantiles with their intervals and paragraphs of its results stand on the page. The folder
+    /// of `occupant sweep`; repeat it for shards
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["verify", "extract"])]
+    study: Vec<PathBuf>,
 
     /// Compare every byte of the case with its seal, and name what was altered; exit code 1 then
     #[arg(long)]
@@ -57,7 +63,8 @@ fn write(args: &Args) -> Result<Done, Failure> {
     let added =
         args.add.iter().map(|file| Ok(Part::new(&format!("added/{}", file_name(file)), input_file::read(file)?)));
     let added = added.collect::<Result<Vec<_>, Failure>>()?;
-    let case = sealed((&args.file, &bytes), &build()?, added, None)?;
+    let study = if args.study.is_empty() { None } else { Some(open_study(&args.study, MadeBy::AnyProgram)?) };
+    let case = sealed((&args.file, &bytes), &build()?, Beside { added, study }, None)?;
     deliver(&output, args.force, &case)?;
     print(&format!("SHA-256   {}\nsize      {:.2} MB\n", sha256(&case), case.len() as f64 / 1e6))?;
     Ok(Done::Well)

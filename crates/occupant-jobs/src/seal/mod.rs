@@ -1,12 +1,14 @@
 //! A sealed case: one HTML file with a run, its inputs and its page, in which an altered byte is named.
 //!
 //! The file is cut into sections, page and parts, that lie end to end. The seal, a comment at the end, lists the SHA-256 of
-//! each; the last line is that of the list. Parts are base64 of gzip.
+//! each; the last line is that of the list. Parts are base64 of gzip; a picture is base64 of its own bytes, and the page shows
+//! that copy.
 
 mod again;
 mod inputs;
 mod pack;
 mod page;
+mod quoted;
 mod sheet;
 
 pub use again::{Same, again};
@@ -16,6 +18,7 @@ use std::path::Path;
 
 use crate::base::{Failure, Units, file_name};
 use crate::report;
+use crate::sweep::Stored;
 use occupant_files::mcap::StoredRun;
 use occupant_files::mcap::about::RESOLVED;
 use occupant_files::results::Results;
@@ -23,11 +26,21 @@ use occupant_files::results::Results;
 /// Name of the part with the results.
 pub const RUN: &str = "run.mcap";
 
-/// The sealed case of a run. `build` describes the program; `added` are files of the user: films, tables of intervals.
+/// What is sealed with a run.
+#[derive(Default)]
+pub struct Beside {
+    /// Files of the user: films, tables.
+    pub added: Vec<Part>,
+    /// A study of its scenario, whose intervals are quoted.
+    pub study: Option<Stored>,
+}
+
+/// The sealed case of a run. `build` describes the program.
 ///
 /// # Errors
-/// A file that holds no run; a run that comes out otherwise here; names that two parts have; a case that is too large.
-pub fn seal(run: (&Path, &[u8]), build: &str, added: Vec<Part>, units: Option<Units>) -> Result<Vec<u8>, Failure> {
+/// A file that holds no run; a run that comes out otherwise here; names that two parts have; a case that is too large; a
+/// study that cannot be read.
+pub fn seal(run: (&Path, &[u8]), build: &str, beside: Beside, units: Option<Units>) -> Result<Vec<u8>, Failure> {
     let (path, bytes) = run;
     let results = Results::of_bytes(path, bytes)?;
     if let Same::No(why) = again(&results)? {
@@ -37,27 +50,30 @@ pub fn seal(run: (&Path, &[u8]), build: &str, added: Vec<Part>, units: Option<Un
     let stored = StoredRun::read(bytes).map_err(Failure::plain)?;
     let units = units.unwrap_or_else(|| Units::asked(None, results.loaded.scenario.units));
     let sheet = sheet::sheet(&results)?;
-    let mut parts = vec![Part::new(RUN, bytes.to_vec())];
     let own = results.run.get("scenario").map(String::as_str).unwrap_or_default();
-    for (name, bytes) in &stored.attachments {
-        let folder = if name == RESOLVED {
-            ""
-        } else if name == own {
-            "as-written/"
-        } else {
-            continue;
-        };
-        parts.push(Part::new(&format!("{folder}{name}"), bytes.clone()));
-    }
-    parts.extend(results.loaded.tables().into_iter().map(|(name, text)| Part::new(name, text.as_bytes().to_vec())));
+    let mut parts = vec![Part::new(RUN, bytes.to_vec())];
+    parts.extend(texts(&results, &stored, own));
     parts.push(Part::new("motion.csv", sheet.csv().into_bytes()));
-    parts.extend(added);
+    let study = beside.study.map(|study| quoted::quoted(study, stored.attachments.get(own), units)).transpose()?;
+    parts.extend(study.iter().map(|study| study.part.clone()));
+    parts.extend(beside.added);
     refuse_names(&parts)?;
     let name = file_name(path);
     let inputs = inputs::inputs(&results);
     let page = report::page(std::slice::from_ref(&results), &[], units)?;
-    let section = page::section(&name, build, &results, (&inputs, &sheet), &parts);
+    let section = page::section(&name, build, &results, (&inputs, &sheet, study.as_ref()), &parts);
     pack::pack(&page, &section, &parts)
+}
+
+/// The scenario with its presets written out, the same as written, and the tables that it names.
+fn texts(results: &Results, stored: &StoredRun, own: &str) -> Vec<Part> {
+    let scenario = stored.attachments.iter().filter_map(|(name, bytes)| match name.as_str() {
+        RESOLVED => Some(Part::new(name, bytes.clone())),
+        written if written == own => Some(Part::new(&format!("as-written/{name}"), bytes.clone())),
+        _ => None,
+    });
+    let tables = results.loaded.tables().into_iter().map(|(name, text)| Part::new(name, text.as_bytes().to_vec()));
+    scenario.chain(tables).collect()
 }
 
 /// Refuses names that two parts have, and those that would leave the folder they are put into.

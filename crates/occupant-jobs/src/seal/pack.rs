@@ -11,7 +11,7 @@ use flate2::write::GzEncoder;
 use serde::{Deserialize, Serialize};
 
 use crate::base::Failure;
-use occupant_files::base::sha256;
+use occupant_files::base::{ending, sha256};
 
 /// Largest size of a case, bytes.
 pub const MOST_BYTES: usize = 5_000_000;
@@ -19,6 +19,8 @@ pub const MOST_BYTES: usize = 5_000_000;
 const PIECE: usize = 16_384;
 /// Largest part when it is unpacked, bytes.
 const MOST_UNPACKED: u64 = 64 << 20;
+/// Place of a picture on the page.
+const PICTURE: &str = "<p style=\"max-width:1500px;margin:0 auto;padding:0 16px 16px\">";
 const BEGIN: &str = "<!-- occupant seal 1\n";
 
 /// A file in a case.
@@ -95,8 +97,7 @@ pub(super) fn pack(page: &str, section: &str, parts: &[Part]) -> Result<Vec<u8>,
     before.as_bytes().chunks(PIECE).for_each(|piece| put("the page", piece, None));
     section.as_bytes().chunks(PIECE).for_each(|piece| put("the list of inputs on the page", piece, None));
     for part in parts {
-        let text = format!("<script type=\"text/plain\">{}</script>\n", packed(&part.bytes)?);
-        put(&format!("part {}", part.name), text.as_bytes(), Some(part));
+        put(&format!("part {}", part.name), packed(part)?.as_bytes(), Some(part));
     }
     put("the end of the page", format!("</body>{after}").as_bytes(), None);
     let seal = tail(&sections)?;
@@ -120,10 +121,30 @@ fn too_large(size: usize, sections: &[Section]) -> Failure {
     )
 }
 
-fn packed(bytes: &[u8]) -> Result<String, Failure> {
+/// A part in its envelope.
+fn packed(part: &Part) -> Result<String, Failure> {
+    let ([before, after], is_picture) = envelope(&part.name);
+    let content = if is_picture { STANDARD.encode(&part.bytes) } else { STANDARD.encode(gzip(&part.bytes)?) };
+    Ok(format!("{before}{content}{after}"))
+}
+
+fn gzip(bytes: &[u8]) -> Result<Vec<u8>, Failure> {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
     let done = gzip.write_all(bytes).and_then(|()| gzip.finish());
-    Ok(STANDARD.encode(done.map_err(|e| Failure::plain(format!("a part cannot be compressed: {e}")))?))
+    done.map_err(|e| Failure::plain(format!("a part cannot be compressed: {e}")))
+}
+
+/// What stands before and after the base64 of a part, and whether it is a picture: the page shows that very copy, so it is
+/// not compressed. No name stands here.
+fn envelope(name: &str) -> ([String; 2], bool) {
+    let kind = ending(Path::new(name));
+    if ["png", "gif"].contains(&&*kind) {
+        let before =
+            format!("{PICTURE}<img style=\"max-width:100%\" alt=\"an added picture\" src=\"data:image/{kind};base64,");
+        ([before, "\"></p>\n".to_owned()], true)
+    } else {
+        (["<script type=\"text/plain\">", "</script>\n"].map(str::to_owned), false)
+    }
 }
 
 /// The seal: the list in one line, and its hash. No name can end the comment.
@@ -180,11 +201,16 @@ impl<'a> Case<'a> {
     fn part(&self, section: &Section, hash: &str, length: u64) -> Result<Part, Failure> {
         let wrong = || Failure::plain(format!("{} cannot be unpacked, or is not what its seal says", section.name));
         let text = std::str::from_utf8(self.text(section)).map_err(|_| wrong())?;
-        let text = text.split_once('>').and_then(|(_, rest)| rest.split_once('<')).ok_or_else(wrong)?.0;
-        let gzip = STANDARD.decode(text).map_err(|_| wrong())?;
-        let mut bytes = Vec::new();
-        let read = GzDecoder::new(&gzip[..]).take(length.min(MOST_UNPACKED)).read_to_end(&mut bytes);
         let name = section.name.strip_prefix("part ").ok_or_else(wrong)?;
+        let ([before, after], is_picture) = envelope(name);
+        let text = text.strip_prefix(&before).and_then(|text| text.strip_suffix(&after)).ok_or_else(wrong)?;
+        let content = STANDARD.decode(text).map_err(|_| wrong())?;
+        let mut bytes = Vec::new();
+        let most = length.min(MOST_UNPACKED);
+        let read = match is_picture {
+            true => content.as_slice().take(most).read_to_end(&mut bytes),
+            false => GzDecoder::new(&content[..]).take(most).read_to_end(&mut bytes),
+        };
         let part = Part::new(name, bytes);
         let is_whole = read.is_ok() && sha256(&part.bytes) == hash && part.stays_inside();
         is_whole.then_some(part).ok_or_else(wrong)

@@ -2,9 +2,9 @@
 
 use super::inputs::Input;
 use super::pack::Part;
+use super::quoted::Quoted;
 use super::sheet::{COLUMNS, Row, Sheet, shown};
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
+use crate::study::all_words;
 use occupant_files::base::{ending, sha256};
 use occupant_files::results::Results;
 use occupant_pictures::html::{Cell, Html};
@@ -13,6 +13,8 @@ use std::path::Path;
 /// Axes and angles of the motion.
 const AXES: &str = "Centres of gravity in vehicle-space (SAE J670): X forward, Y right, Z down. Yaw to the right, pitch nose up, roll right side down, as for vehicles; a segment that is upright and looks forward in a vehicle has its angles. Near a pitch of 90°, as of a sitter's thigh, only the sum or the difference of yaw and roll is certain.";
 
+pub(super) const OTHER_STUDY: &str = "The study varies another text than the scenario of this run: compare the two before its intervals are quoted for this run.";
+
 const SCRIPT: &str = include_str!("../../assets/seal/verify.js");
 
 /// HTML of the section; texts of users are escaped.
@@ -20,7 +22,7 @@ pub(super) fn section(
     name: &str,
     build: &str,
     results: &Results,
-    (inputs, sheet): (&[Input], &Sheet),
+    (inputs, sheet, study): (&[Input], &Sheet, Option<&Quoted>),
     parts: &[Part],
 ) -> String {
     let mut html = Html::default();
@@ -33,7 +35,7 @@ pub(super) fn section(
     html.text("h3", "Parts");
     let rows: Vec<Vec<Cell>> = parts.iter().map(row_of_part).collect();
     html.table(&["part", "bytes", "SHA-256"], &rows);
-    pictures(&mut html, parts);
+    study.iter().for_each(|study| say(&mut html, study));
     html.fold(&format!("Values that were set: {}", inputs.len()));
     let rows: Vec<Vec<Cell>> = inputs.iter().map(row_of_input).collect();
     html.table(&["key", "value", "where", "preset or earlier value"], &rows);
@@ -54,6 +56,16 @@ pub(super) fn section(
     html.finish()
 }
 
+/// What can be quoted of a study; that it varies another text is said first.
+fn say(html: &mut Html, study: &Quoted) {
+    let title = &study.report.opened.manifest.title;
+    html.text("h3", &format!("Intervals from the study {title}"));
+    if !study.is_of_this {
+        html.text("p class=\"note\"", OTHER_STUDY);
+    }
+    all_words(html, &study.report);
+}
+
 fn row_of_part(part: &Part) -> Vec<Cell> {
     vec![Cell::Words(part.name.clone()), Cell::Number(part.bytes.len().to_string()), Cell::Words(sha256(&part.bytes))]
 }
@@ -66,17 +78,4 @@ fn row_of_sheet(row: &Row) -> Vec<Cell> {
     let numbers = std::iter::once(Some(row.time_s)).chain(row.values);
     let numbers = numbers.map(|value| Cell::Number(shown(value, |x| format!("{x:.3}"))));
     std::iter::once(Cell::Words(row.part.clone())).chain(numbers).collect()
-}
-
-/// Pictures and films among the parts.
-fn pictures(html: &mut Html, parts: &[Part]) {
-    for part in parts {
-        let kind = ending(Path::new(&part.name));
-        if ["png", "gif"].contains(&&*kind) {
-            let data = STANDARD.encode(&part.bytes);
-            html.raw(&format!(
-                "<p><img style=\"max-width:100%\" alt=\"film\" src=\"data:image/{kind};base64,{data}\"></p>\n"
-            ));
-        }
-    }
 }

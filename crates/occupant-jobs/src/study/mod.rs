@@ -27,7 +27,7 @@ pub mod worst;
 
 pub use matrix::text as matrix_text;
 pub use page::{page, subject};
-pub use quoting::{Answer, answer, text as paragraphs};
+pub use quoting::{Answer, all_words, answer, text as paragraphs};
 pub use tables::{Tables, write as write_tables};
 
 use crate::base::{Failure, Show, Units};

@@ -180,16 +180,33 @@ pub fn answer(report: &Report) -> Answer<'_> {
 
 /// Paragraph, quantiles, limits and plots of a statement on the page.
 pub fn section(html: &mut Html, of: &Statement, unit: &Told) {
-    html.text("h3", &of.case.as_ref().map_or("To quote".to_owned(), |case| format!("To quote, with {case}")));
-    html.text("blockquote", &of.paragraph);
-    quantiles(html, of, unit);
-    limits(html, of, unit);
+    words(html, of, unit);
     let Some(bars) = &of.histogram else { return };
     html.raw("<div class=\"grid\">\n");
     for picture in [histogram(of, bars, unit), distribution(of, unit)] {
         html.raw(&format!("<figure>{picture}</figure>\n"));
     }
     html.raw("</div>\n");
+}
+
+/// Paragraph, quantiles and limits of a statement.
+fn words(html: &mut Html, of: &Statement, unit: &Told) {
+    html.text("h3", &of.case.as_ref().map_or("To quote".to_owned(), |case| format!("To quote, with {case}")));
+    html.text("blockquote", &of.paragraph);
+    quantiles(html, of, unit);
+    limits(html, of, unit);
+}
+
+/// What can be quoted of a study, as text: its notes, then each response under its name.
+pub fn all_words(html: &mut Html, report: &Report) {
+    for note in &report.notes {
+        html.text("p class=\"note\"", note);
+    }
+    for finding in report.findings() {
+        html.fold(&finding.response.name);
+        finding.statements.iter().for_each(|statement| words(html, statement, &finding.response.unit));
+        html.unfold();
+    }
 }
 
 fn quantiles(html: &mut Html, of: &Statement, unit: &Told) {

@@ -1,0 +1,26 @@
+//! What a study of the scenario says, beside the one run.
+
+use super::pack::Part;
+use crate::base::{Failure, Show, Units};
+use crate::study::{Report, answer};
+use crate::sweep::Stored;
+use occupant_files::base::sha256;
+
+/// A study, read.
+pub(super) struct Quoted {
+    pub report: Report,
+    /// Whether it varies the text of this run.
+    pub is_of_this: bool,
+    /// Its numbers and paragraphs in JSON.
+    pub part: Part,
+}
+
+/// The study's figures with their intervals; `own` is the scenario of the run.
+pub(super) fn quoted(stored: Stored, own: Option<&Vec<u8>>, units: Units) -> Result<Quoted, Failure> {
+    let report = Report::of(stored, &[], &[], units, Show::NOTHING)?;
+    let json = serde_json::to_vec_pretty(&answer(&report));
+    let json = json.map_err(|e| Failure::plain(format!("the study's answer is not JSON: {e}")))?;
+    let varied = report.opened.manifest.texts.get(1);
+    let is_of_this = own.zip(varied).is_some_and(|(own, varied)| sha256(own) == varied.sha256);
+    Ok(Quoted { is_of_this, part: Part::new("study/quotes.json", json), report })
+}
