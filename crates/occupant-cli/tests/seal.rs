@@ -140,6 +140,15 @@ fn texts_of_users_neither_end_a_script_nor_begin_a_seal() {
     assert!(done(folder.path(), &["seal", "case.html", "--verify"]).contains("every byte"));
 }
 
+#[test]
+fn flags_that_would_be_ignored_are_refused() {
+    let folder = sealed();
+    for words in [&["run.mcap", "--again", "-o", "x.html"][..], &["case.html", "--verify", "--add", "case.toml"]] {
+        let output = answer(folder.path(), &[&["seal"], words].concat());
+        assert_eq!(output.status.code(), Some(2), "{words:?}: {}", err(&output));
+    }
+}
+
 /// Bytes that no compression shortens, from a plain congruential generator.
 fn noise(count: usize) -> Vec<u8> {
     let mut state = 1_u64;

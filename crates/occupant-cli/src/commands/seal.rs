@@ -37,7 +37,7 @@ pub(crate) struct Args {
     verify: bool,
 
     /// With --verify: run the case again with this program and compare to the bit
-    #[arg(long, requires = "verify")]
+    #[arg(long, requires = "verify", conflicts_with_all = ["output", "add", "study"])]
     again: bool,
 
     /// Write the parts of the case into a new folder
