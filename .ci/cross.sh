@@ -45,10 +45,6 @@ prepare_wine() {
   export WINEDEBUG=${WINEDEBUG:--all} WINEPREFIX=${WINEPREFIX:-${CARGO_TARGET_DIR:-$PWD/target}/wine}
   local system=$WINEPREFIX/drive_c/windows/system32
   [ -d "$system" ] || { mkdir -p "$WINEPREFIX" && wineboot --init >/dev/null 2>&1; }
-  # tests stand in a folder for temporary files, which is on another drive, and name files of the repository without a drive
-  local top
-  top=/$(printf %s "${PWD#/}" | cut -d/ -f1)
-  [ -e "$WINEPREFIX/drive_c$top" ] || ln -s "$top" "$WINEPREFIX/drive_c$top"
   [ -e "$system/bcryptprimitives.dll" ] ||
     x86_64-w64-mingw32-gcc -shared -O1 -s -o "$system/bcryptprimitives.dll" .ci/bcryptprimitives.c -ladvapi32
 }

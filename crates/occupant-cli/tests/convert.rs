@@ -9,8 +9,7 @@ fn decks() -> PathBuf {
 }
 
 fn convert(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("occupant")
-        .expect("built")
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("occupant"))
         .current_dir(folder)
         .arg("convert")
         .args(arguments)
@@ -50,7 +49,8 @@ fn a_deck_stands_in_the_compartment_beside_it() {
     assert_eq!((code, &out), (0, &committed), "{said}");
     assert!(said.contains("its compartment comes from compartment.toml"), "{said}");
     let run = |words: &[&str]| {
-        let output = Command::cargo_bin("occupant").expect("built").current_dir(folder.path()).args(words).output();
+        let output =
+            Command::new(assert_cmd::cargo::cargo_bin!("occupant")).current_dir(folder.path()).args(words).output();
         let output = output.expect("runs");
         String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned()
     };
@@ -159,7 +159,7 @@ fn a_deck_goes_to_standard_output_in_the_bytes_of_a_file() {
     let text = std::fs::read_to_string(decks().join("driver-lap-torso.toml")).expect("committed");
     let text = text.replacen("title = \"DRIVER", "title = \"FÄHRER —", 1);
     std::fs::write(folder.path().join("case.toml"), text).expect("written");
-    let mut command = Command::cargo_bin("occupant").expect("built");
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
     let output = command.current_dir(folder.path()).args(["convert", "case.toml"]).output().expect("runs");
     assert_eq!(output.stdout[..9], *b"F\xc4HRER ? ", "Latin-1");
     let said = String::from_utf8_lossy(&output.stderr);
@@ -181,8 +181,7 @@ fn several_decks_become_numbered_scenarios() {
 fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
     let folder = tempfile::tempdir().expect("a folder");
     let name = |file: &str| decks().join(file).to_str().expect("UTF-8").to_owned();
-    let run = Command::cargo_bin("occupant")
-        .expect("built")
+    let run = Command::new(assert_cmd::cargo::cargo_bin!("occupant"))
         .current_dir(folder.path())
         .args(["run", &name("driver-exact-state.toml"), "-q", "-o", "run.mcap"])
         .output()
@@ -206,7 +205,7 @@ fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
 }
 
 fn occupant(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("occupant").expect("built").current_dir(folder).args(arguments).output();
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("occupant")).current_dir(folder).args(arguments).output();
     let output = output.expect("runs");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))

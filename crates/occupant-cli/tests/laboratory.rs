@@ -337,5 +337,5 @@ fn the_page_for_an_authority_has_measures_rules_intervals_and_histories() {
     let middle = oiv["value"].as_f64().unwrap();
     // how wide it must be: `examined`
     assert!(low < middle && middle < high, "{low} {middle} {high}");
-    assert!(done(here, &["risk", "a<b>&.csv", "--start", "0", "--units", "in-lbf-s"]).contains("ft/s"));
+    assert!(done(here, &["risk", name, "--start", "0", "--units", "in-lbf-s"]).contains("ft/s"));
 }

@@ -15,8 +15,11 @@ use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 const SCENARIO: &str = include_str!("recording/short.toml");
 
 fn occupant(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output =
-        Command::cargo_bin("occupant").expect("built").current_dir(folder).args(arguments).output().expect("runs");
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("occupant"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("runs");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }

@@ -137,7 +137,7 @@ fn a_title_of_64_kilobytes_is_drawn_in_seconds() {
 #[test]
 fn a_file_beyond_the_limit_of_the_process_is_a_write_that_fails() {
     let folder = folder();
-    let binary = assert_cmd::cargo::cargo_bin("occupant");
+    let binary = assert_cmd::cargo::cargo_bin!("occupant");
     let script = format!("ulimit -f 100; exec '{}' run case.toml -q -o x.mcap", binary.display());
     let output = std::process::Command::new("sh").current_dir(folder.path()).args(["-c", &script]).output();
     let output = output.expect("a shell");

@@ -206,16 +206,16 @@ impl Results {
     /// # Errors
     /// None for a file that was opened.
     pub fn summary(&self) -> Result<Summary, Failure> {
-        self.summary_judged(Options::default())
+        self.summary_judged(Options::default(), ())
     }
 
-    /// The summary with measures filtered and compared as `options` require.
+    /// The summary with measures filtered and compared as `options` require; `watch` sees the same outputs.
     ///
     /// # Errors
     /// None for a file that was opened.
-    pub fn summary_judged(&self, options: Options) -> Result<Summary, Failure> {
+    pub fn summary_judged(&self, options: Options, watch: impl Recorder) -> Result<Summary, Failure> {
         let mut seen = (Summarizer::judging(options), FrictionWatch::new());
-        self.replay(&mut seen)?;
+        self.replay((&mut seen, watch))?;
         seen.end(&self.outcome()).map_err(|e| self.refused(&e.to_string()))?;
         self.told(&self.model, &seen)
     }

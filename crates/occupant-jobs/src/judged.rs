@@ -1,22 +1,19 @@
-//! By which limits a body is judged: those for the direction of its impact, with verdicts for dummies alone.
+//! By which limits a body is judged: those for the direction of its impact.
 //!
 //! The direction is that of the delta-v, the sum of the changes of velocity in axes of the vehicle, when it is largest in
 //! the horizontal plane: from the front or from behind up to 45° beside the longitudinal axis, else from the
 //! side. A vehicle that tilts by more than 45° rolls over, whatever the delta-v.
 
 use crash_measures::injury::{self, Judgement, Options, RULES};
-use crash_measures::measure::{Basis, Blow, Dummy, Grade, LIMITS, Limit, Quantity};
+use crash_measures::measure::{Blow, Dummy, Grade, LIMITS, Limit, Quantity};
 use nalgebra::{Matrix3, Vector3};
 use occupant_core::model::Model;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summary;
-use occupant_files::results::Results;
-use occupant_scenario::Loaded;
 use occupant_units::trig;
-use serde_json::Value as Json;
 
-use crate::base::{Failure, Units};
+use crate::base::Units;
 
 /// Delta-v below which there is no impact, m/s.
 const LEAST_M_S: f64 = 1.0;
@@ -109,16 +106,6 @@ impl Carried {
 }
 
 impl Impact {
-    /// Impact on the vehicles of a run in a file.
-    ///
-    /// # Errors
-    /// A file that cannot be replayed.
-    pub fn of(results: &Results) -> Result<Self, Failure> {
-        let mut impact = Impact::default();
-        results.replay(&mut impact)?;
-        Ok(impact)
-    }
-
     fn carried(&self, body: usize) -> Option<&Carried> {
         self.bodies.get(body)?.as_ref()
     }
@@ -128,9 +115,11 @@ impl Impact {
         self.carried(body).map_or(Direction::None, Carried::direction)
     }
 
-    /// The direction and the reason, in words; none for a body without a vehicle.
-    pub fn reason(&self, body: usize, units: Units) -> Option<String> {
-        self.carried(body).map(|carried| carried.reason(units))
+    /// The directions and their reasons in words, each once.
+    pub fn reasons(&self, units: Units) -> Vec<String> {
+        let mut all: Vec<String> = self.bodies.iter().flatten().map(|carried| carried.reason(units)).collect();
+        all.dedup();
+        all
     }
 
     /// Judges all bodies by the rules for their impacts. Rules without a direction hold for all.
@@ -179,7 +168,7 @@ fn judge_by_side(measure: &mut injury::Measure, options: &Options) {
         measure.limits.iter().any(|limit| RULES.iter().any(|r| r.name() == limit.rule && r.blow().is_some()));
     let known = OF_ALL.iter().find(|(name, _)| *name == measure.name).filter(|_| !is_judged);
     if let (Some((_, quantity)), Some(value)) = (known, measure.value) {
-        measure.limits.extend(side_limits(*quantity, options.dummy).map(|limit| judged(limit, value)));
+        measure.limits.extend(side_limits(*quantity, options.dummy).map(|limit| Judgement::of(limit, value)));
     }
 }
 
@@ -187,18 +176,6 @@ fn side_limits(quantity: Quantity, dummy: Dummy) -> impl Iterator<Item = &'stati
     let is_own = move |limit: &&Limit| limit.dummy.is_none_or(|own| own == dummy) && limit.quantity == quantity;
     let is_last = |limit: &&Limit| matches!(limit.grade, Grade::Maximum | Grade::LowerPerformance);
     LIMITS.iter().filter(|limit| limit.rule.blow() == Some(Blow::Side)).filter(is_own).filter(is_last)
-}
-
-fn judged(limit: &Limit, value: f64) -> Judgement {
-    let verdict = limit.judge(value);
-    Judgement {
-        rule: limit.rule.name(),
-        most: limit.most,
-        passed: verdict.passed,
-        margin: verdict.margin,
-        relative_margin: verdict.relative_margin,
-        quoted: limit.basis == Basis::SecondarySource,
-    }
 }
 
 impl Recorder for Impact {
@@ -221,24 +198,6 @@ impl Recorder for Impact {
         }
         Ok(Flow::Continue)
     }
-}
-
-/// Names of the occupants that are dummies, empty for a single one: those with the chest, the sides or the joints of a
-/// dummy. All others are people, for whom limits of dummies are yardsticks.
-pub fn dummies(loaded: &Loaded) -> Vec<String> {
-    let whole = serde_json::to_value(&loaded.scenario).unwrap_or_default();
-    let many = whole["occupants"].as_object().into_iter().flatten().map(|(name, own)| (name.clone(), own));
-    std::iter::once((String::new(), &whole))
-        .chain(many)
-        .filter(|(_, own)| is_dummy(own))
-        .map(|(name, _)| name)
-        .collect()
-}
-
-fn is_dummy(own: &Json) -> bool {
-    let words = [&own["body"]["dummy"], &own["body"]["chest"], &own["body"]["sides"], &own["joints"]["preset"]];
-    let is_of_dummy = |word: &str| ["dummy", "hybrid", "es2"].iter().any(|start| word.starts_with(start));
-    words.into_iter().filter_map(Json::as_str).any(is_of_dummy)
 }
 
 #[cfg(test)]

@@ -88,6 +88,17 @@ impl Loaded {
         looks_ahead.map(|(name, _)| name.clone()).collect()
     }
 
+    /// Names of the occupants that are dummies, empty for a single one: those with the chest, the sides or the joints of
+    /// a dummy. All others are people, for whom limits of dummies are yardsticks.
+    pub fn dummies(&self) -> Vec<String> {
+        let Scenario { body, joints, occupants, .. } = &self.scenario;
+        let single = body.iter().map(|body| ("", body, joints.as_ref()));
+        let all = single.chain(occupants.iter().map(|(name, own)| (name.as_str(), &own.body, Some(&own.joints))));
+        let of_dummies =
+            all.filter(|(_, body, joints)| body.is_of_dummy() || joints.is_some_and(|own| own.is_of_dummy()));
+        of_dummies.map(|(name, ..)| name.to_owned()).collect()
+    }
+
     /// The vehicles of `drive`, simulated before the people, with warnings; none in a scenario without `drive`.
     ///
     /// # Errors

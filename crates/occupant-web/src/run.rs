@@ -79,7 +79,7 @@ pub fn run(case: &Case, plotted: &[String], told: &mut dyn FnMut(f64)) -> Result
         notes: reason.into_iter().collect(),
         origin: origin(case),
         scenario: case.text.clone(),
-        judged: occupant_jobs::judged::dummies(&loaded),
+        judged: loaded.dummies(),
     };
     let units = Units::of_scenario(loaded.scenario.units.unwrap_or_default());
     Ok(Ran {

@@ -150,6 +150,21 @@ pub struct Judgement {
     pub quoted: bool,
 }
 
+impl Judgement {
+    /// A value compared with a limit, both in the measure's unit.
+    pub fn of(limit: &Limit, value: f64) -> Self {
+        let verdict = limit.judge(value);
+        Judgement {
+            rule: limit.rule.name(),
+            most: limit.most,
+            passed: verdict.passed,
+            margin: verdict.margin,
+            relative_margin: verdict.relative_margin,
+            quoted: limit.basis == Basis::SecondarySource,
+        }
+    }
+}
+
 /// The probability of an injury.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Risk {
@@ -234,19 +249,7 @@ impl Measure {
         let applies =
             |limit: &Limit| [Some(options.dummy), options.also].into_iter().flatten().any(|d| limit.applies_to(d));
         let judged = JUDGED.iter().filter(|limit| limit.quantity == quantity && applies(limit));
-        self.limits = judged
-            .map(|limit| {
-                let verdict = limit.judge(value);
-                Judgement {
-                    rule: limit.rule.name(),
-                    most: limit.most,
-                    passed: verdict.passed,
-                    margin: verdict.margin,
-                    relative_margin: verdict.relative_margin,
-                    quoted: limit.basis == Basis::SecondarySource,
-                }
-            })
-            .collect();
+        self.limits = judged.map(|limit| Judgement::of(limit, value)).collect();
     }
 }
 

@@ -19,7 +19,7 @@ use crate::base::progress::Progress;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
 use occupant_files::results::Results;
 use occupant_jobs::files::history::{FAMILIES, family_name};
-use occupant_jobs::judged::{Impact, dummies};
+use occupant_jobs::judged::Impact;
 
 /// Sample interval of filtered channels, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;
@@ -151,18 +151,21 @@ impl Judged {
         let again_s = again_s.or(needed_s).filter(|again_s| (again_s / own_s - 1.0).abs() > 1e-9);
         let [own_ms, interval_ms] = [own_s, again_s.unwrap_or(own_s)].map(|s| (1e9 * s).round() / 1e6);
         let mut notes = results.notes();
-        let summary = match again_s {
-            None => results.summary_judged(options)?,
+        let mut impact = Impact::default();
+        let mut summary = match again_s {
+            None => results.summary_judged(options, &mut impact)?,
             Some(interval_s) => {
                 notes.push(format!(
                     "running the case again with samples every {interval_ms} ms; the file has one every {own_ms} ms"
                 ));
-                results.summary_again(options, interval_s, Progress::new(false))?
+                results.summary_again(options, interval_s, (&mut impact, Progress::new(false)))?
             }
         };
-        let mut summary = summary;
-        let reasons = if options.by_size { by_direction(&results, &mut summary, units)? } else { Vec::new() };
-        notes.extend(reasons);
+        // a dummy that was asked for has its limits, whatever the direction
+        if options.by_size {
+            impact.judge(&mut summary, &results.model);
+            notes.extend(impact.reasons(units));
+        }
         Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
     }
 
@@ -213,16 +216,6 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
 }
 
-/// Judges bodies by the rules for their impacts, and says which they are.
-fn by_direction(results: &Results, summary: &mut Summary, units: Units) -> Result<Vec<String>, Failure> {
-    let impact = Impact::of(results)?;
-    impact.judge(summary, &results.model);
-    let bodies = results.model.body().tree.bodies().len();
-    let mut reasons: Vec<String> = (0..bodies).filter_map(|body| impact.reason(body, units)).collect();
-    reasons.dedup();
-    Ok(reasons)
-}
-
 /// Several runs, numbered, in one table.
 fn texts(all: &[Judged], options: &Options, units: Units) -> String {
     let marks: Vec<_> = all.iter().map(|one| Marks::of(&one.summary.caveats)).collect();
@@ -260,7 +253,7 @@ const JUDGEMENT: &str =
 
 fn text(one: &Judged, options: &Options, (units, verdict): (Units, bool)) -> String {
     let Judged { results, summary, interval_ms, .. } = one;
-    let with_verdict = dummies(&results.loaded);
+    let with_verdict = results.loaded.dummies();
     let (people, all) = (summary.people(), Marks::of(&summary.caveats));
     let filter = filter(options);
     let title = shown(&results.model.setup().title);

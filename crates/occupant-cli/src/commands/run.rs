@@ -350,7 +350,7 @@ fn show(
     }
     let units = args.units.or(opened.loaded.scenario.units);
     let error = estimate.map(|estimate| estimate.text(units)).unwrap_or_default();
-    let dummies = occupant_jobs::judged::dummies(&opened.loaded);
+    let dummies = opened.loaded.dummies();
     let Some(ensemble) = ensemble else {
         let table = summary_table(&run.summary, &run.written, &Marks::of(&run.summary.caveats), units, &dummies);
         return print(&(table + &error));

@@ -1,4 +1,5 @@
-//! The commands of a page run its rows again, to the last bit.
+//! The commands of a page run its rows again, to the last bit. They are words of a POSIX shell, which Windows lacks.
+#![cfg(unix)]
 
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,6 @@
 //! Data of the page. The names of the fields are those that `assets/viewer/src` reads.
 
+use crash_measures::injury::Options;
 use nalgebra::Point3;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
@@ -21,7 +22,7 @@ use super::ride_down::RideDown;
 use super::{curves, measures, provenance};
 use crate::base::{Failure, Units, file_name};
 use crate::files::history::choose;
-use crate::judged::{Impact, dummies};
+use crate::judged::Impact;
 use occupant_files::mcap::scene::compartment::{corners_m, square_m};
 use occupant_files::results::Results;
 use occupant_pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
@@ -199,7 +200,7 @@ impl PageRecorder {
         Run {
             label: told.label,
             title: model.setup().title.clone(),
-            impacts: impacts(&impact, model, units),
+            impacts: impact.reasons(units),
             facts: provenance::facts(model, summary, units),
             notes,
             caveats: caveats.iter().map(|caveat| caveat.text.clone()).collect(),
@@ -223,17 +224,23 @@ impl PageRecorder {
     }
 }
 
+impl PageRecorder {
+    fn all(&mut self) -> impl Recorder {
+        ((&mut self.impact, &mut self.ground), (&mut self.ride, (&mut self.motion, &mut self.series)))
+    }
+}
+
 impl Recorder for PageRecorder {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
-        ((&mut self.impact, &mut self.ground), (&mut self.ride, (&mut self.motion, &mut self.series))).begin(model)
+        self.all().begin(model)
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        ((&mut self.impact, &mut self.ground), (&mut self.ride, (&mut self.motion, &mut self.series))).record(sample)
+        self.all().record(sample)
     }
 
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
-        ((&mut self.impact, &mut self.ground), (&mut self.ride, (&mut self.motion, &mut self.series))).end(outcome)
+        self.all().end(outcome)
     }
 }
 
@@ -257,15 +264,15 @@ impl Run {
     /// A name or pattern that fits no channel.
     pub fn judged(results: &Results, channels: &[String], units: Units, verdicts: bool) -> Result<Self, Failure> {
         let mut gathered = PageRecorder::new(&results.model, channels)?;
-        results.replay(&mut gathered)?;
+        let summary = results.summary_judged(Options::default(), &mut gathered)?;
         let told = Source {
             label: Run::label_of(results),
             notes: results.notes(),
             origin: provenance::origin(results),
             scenario: results.scenario_text.clone().unwrap_or_default(),
-            judged: if verdicts { names(&results.model) } else { dummies(&results.loaded) },
+            judged: if verdicts { names(&results.model) } else { results.loaded.dummies() },
         };
-        Ok(gathered.run(&results.model, &results.summary()?, told, units))
+        Ok(gathered.run(&results.model, &summary, told, units))
     }
 }
 
@@ -274,20 +281,18 @@ fn names(model: &Model) -> Vec<String> {
     model.body().tree.bodies().iter().map(|row| row.name.to_owned()).collect()
 }
 
-/// Directions of the impacts on the vehicles of all bodies, each once.
-fn impacts(impact: &Impact, model: &Model, units: Units) -> Vec<String> {
-    let mut all: Vec<String> = (0..names(model).len()).filter_map(|body| impact.reason(body, units)).collect();
-    all.dedup();
-    all
-}
-
 impl Occupant {
     fn of((prefix, person): (String, Person), judged: &[String]) -> Self {
         let name = prefix.trim_end_matches('.').to_owned();
         Occupant { judged: judged.contains(&name), name, dummy: person.dummy }
     }
 
-    pub(super) fn is_of(&self, text: &str) -> bool {
+    /// Whose a row is, by its name: of `driver` and `driver_2` the longer that fits.
+    pub(super) fn owner<'a>(all: &'a [Occupant], text: &str) -> Option<&'a Occupant> {
+        all.iter().filter(|one| one.is_of(text)).max_by_key(|one| one.name.len())
+    }
+
+    fn is_of(&self, text: &str) -> bool {
         let owns = |word: &str| word.strip_prefix(&*self.name).is_some_and(|rest| rest.starts_with(['.', '_']));
         !self.name.is_empty() && text.split_whitespace().any(owns)
     }
@@ -423,4 +428,19 @@ fn shown_in(frame: Frame) -> (&'static str, impl Fn([f64; 3]) -> [f64; 3]) {
         _ => ("vehicle", [1.0, 1.0, 1.0]),
     };
     (name, move |v| [0, 1, 2].map(|i| turn[i] * v[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_belong_to_the_occupant_whose_whole_name_they_begin_with() {
+        let all = ["driver", "driver_2", ""].map(|name| Occupant { name: name.to_owned(), dummy: "", judged: false });
+        let owner = |text: &str| Occupant::owner(&all, text).map(|one| one.name.as_str());
+        assert_eq!(owner("driver.HIC15"), Some("driver"));
+        assert_eq!(owner("driver_2.HIC15"), Some("driver_2"));
+        assert_eq!(owner("force of driver_lap"), Some("driver"));
+        assert_eq!([owner("drivers.HIC15"), owner("HIC15")], [None, None]);
+    }
 }

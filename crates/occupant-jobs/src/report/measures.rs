@@ -91,7 +91,7 @@ pub fn measures(summary: &Summary, ride: &RideDown, occupants: &[Occupant], unit
     let joule = engineering(Unit::Joule, units);
     add(kinetic, "energy.greatest_kinetic", energy.greatest_kinetic_j * joule.per_si(), joule);
     let whose = |row: Measure| {
-        let occupant = occupants.iter().find(|one| one.is_of(&row.name)).map(|one| one.name.clone());
+        let occupant = Occupant::owner(occupants, &row.name).map(|one| one.name.clone());
         Measure { occupant, ..row }
     };
     rows.into_iter().map(|row| whose(row.judged(&summary.caveats))).collect()

@@ -227,6 +227,13 @@ impl BodySection {
         self.sex.is_some() || self.stature.is_some() || self.mass.is_some()
     }
 
+    /// Whether it is a dummy, or has the chest or the sides of one.
+    pub(crate) fn is_of_dummy(&self) -> bool {
+        self.dummy.is_some()
+            || matches!(self.chest, Some(ChestChoice::Dummy50 | ChestChoice::Dummy05f))
+            || self.sides == Some(SidesChoice::Es2)
+    }
+
     /// The person described, as changes of another.
     pub(crate) fn person(&self, from: Person) -> Person {
         let sex = self.sex.as_deref().map(|sex| if sex == "female" { Sex::Female } else { Sex::Male });

@@ -34,6 +34,13 @@ pub(crate) struct JointsSection {
     pub(crate) named: IndexMap<String, JointSection>,
 }
 
+impl JointsSection {
+    /// Whether they start from those of a dummy.
+    pub(crate) fn is_of_dummy(&self) -> bool {
+        self.preset.as_deref().is_some_and(|name| name.starts_with("dummy"))
+    }
+}
+
 /// Properties of a joint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -151,3 +151,21 @@ fn names_that_a_body_does_not_know_are_refused() {
         assert!(problem.contains(expected), "{new}: {problem}");
     }
 }
+
+#[test]
+fn dummies_are_told_from_people() {
+    let body = "[body]\npreset = \"male50\"";
+    let single = |new: &str| load(&short_with(body, new)).unwrap_or_else(|e| panic!("{e}")).dummies();
+    for person in ["", "\nchest = \"person\"", "\nsides = \"person\"\nsphere_set = \"even\""] {
+        assert!(single(&format!("{body}{person}")).is_empty(), "{person}");
+    }
+    for dummy in ["\nchest = \"dummy50\"", "\nsides = \"es2\"\nsphere_set = \"even\""] {
+        assert_eq!(single(&format!("{body}{dummy}")), [""], "{dummy}");
+    }
+    assert_eq!(single("[body]\ndummy = \"hybrid2-like\""), [""]);
+    let joints = short_with("[joints]\npreset = \"male50\"", "[joints]\npreset = \"dummy50-like\"");
+    assert_eq!(load(&joints).unwrap_or_else(|e| panic!("{e}")).dummies(), [""]);
+    let several = "title = \"t\"\ntime.end = \"0.1 s\"\npath = { kind = \"pulse\", shape = \"half_sine\", speed = \"30 km/h\", delta_v = \"30 km/h\", duration = \"0.1 s\" }\n\
+                   [car]\nclass = \"van\"\n[occupants.driver]\n[occupants.passenger]\nbody = { dummy = \"hybrid3_5f-like\" }\n";
+    assert_eq!(load(several).unwrap_or_else(|e| panic!("{e}")).dummies(), ["passenger"]);
+}
