@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use occupant_jobs::seal::{Case, Same, again};
+
 use crate::common::{CASE, answer, done, err, folder_with, spoken};
 
 fn sealed() -> tempfile::TempDir {
@@ -180,10 +182,30 @@ fn a_case_beyond_5_mb_is_refused_with_the_sizes_of_its_parts() {
     let output = answer(folder.path(), &["seal", "run.mcap", "-o", "large.html", "--add", "film.gif"]);
     let said = err(&output);
     assert_eq!(output.status.code(), Some(2), "{said}");
-    for wanted in ["the limit is 5 MB", "added/film.gif 4.67 MB", "part run.mcap", "leave out a film"] {
+    for wanted in ["the limit is 5 MB", "added/film.gif 4.67 MB", "part resolved.toml", "leave out a film"] {
         assert!(said.contains(wanted), "{wanted}: {said}");
     }
     assert!(!folder.path().join("large.html").exists());
+}
+
+#[test]
+fn results_beyond_5_mb_are_left_out_and_can_still_be_run_again() {
+    let folder = sealed();
+    let room = 5_000_000 - fs::metadata(folder.path().join("case.html")).expect("a case").len() as usize;
+    fs::write(folder.path().join("film.mp4"), noise(room / 4 * 3 + 300)).expect("a film");
+    let output = answer(folder.path(), &["seal", "run.mcap", "-o", "film.html", "--add", "film.mp4"]);
+    assert!(output.status.success() && err(&output).contains("note: the result file is not in the case"));
+    let page = fs::read(folder.path().join("film.html")).expect("a case");
+    assert!(page.len() <= 5_000_000 && String::from_utf8_lossy(&page).contains("<video controls"));
+    let told = done(folder.path(), &["seal", "film.html", "--verify", "--again"]);
+    assert!(told.contains("every byte") && told.contains("same to the bit"), "{told}");
+    // another input, sealed anew, is another run
+    let mut parts = Case::read(&page).and_then(|case| case.parts()).expect("a whole case");
+    assert!(matches!(again(&parts), Ok(Same::Yes(outputs)) if outputs > 50));
+    let resolved = parts.iter_mut().find(|part| part.name == "resolved.toml").expect("a scenario");
+    let text = String::from_utf8_lossy(&resolved.bytes).replacen("mass = \"", "mass = \"1", 1);
+    resolved.bytes = text.into_bytes();
+    assert!(matches!(again(&parts), Ok(Same::No(why)) if why.contains("differs")));
 }
 
 const STUDY: &str = "title = \"speeds <b>\"\nbase = \"case.toml\"\nseed = 3\n\

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use crate::base::{
     Done, Failure, deliver, file_name, input_file, is_page, print, program, publish, refuse_input, say, sha256,
 };
-use occupant_files::results::Results;
-use occupant_jobs::seal::{Beside, Case, Part, RUN, Same, again, seal as sealed};
+use occupant_jobs::seal::{Beside, Case, Part, Same, Sealed, again, seal as sealed};
 use occupant_jobs::sweep::stored::{MadeBy, open as open_study};
 
 /// Seal a run with its inputs in one HTML file, or verify such a file
 ///
 /// The page opens offline. It lists every value that was set, all files with their SHA-256 and the motion every 1/20 s, and
-/// carries them. The run is made again first: it is sealed only if the same bits come out. Limit 5 MB.
+/// carries them. The run is made again first: it is sealed only if the same bits come out. Limit 5 MB; a result file beyond
+/// that is left out, with the SHA-256 of every output in its place.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`; with --verify or --extract the sealed case
@@ -23,7 +23,7 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "FILE.html", conflicts_with_all = ["verify", "extract"])]
     output: Option<PathBuf>,
 
-    /// Add a file: a film (GIF or PNG, shown on the page), tables and texts (shown as text). May be repeated
+    /// Add a file: a picture or film (PNG, GIF or MP4, shown on the page), tables and texts (shown as text). May be repeated
     #[arg(long, value_name = "FILE", conflicts_with_all = ["verify", "extract"])]
     add: Vec<PathBuf>,
 
@@ -64,8 +64,13 @@ fn write(args: &Args) -> Result<Done, Failure> {
         args.add.iter().map(|file| Ok(Part::new(&format!("added/{}", file_name(file)), input_file::read(file)?)));
     let added = added.collect::<Result<Vec<_>, Failure>>()?;
     let study = if args.study.is_empty() { None } else { Some(open_study(&args.study, MadeBy::AnyProgram)?) };
-    let case = sealed((&args.file, &bytes), &build()?, Beside { added, study }, None)?;
+    let Sealed { bytes: case, holds_run } = sealed((&args.file, &bytes), &build()?, Beside { added, study }, None)?;
     deliver(&output, args.force, &case)?;
+    if !holds_run {
+        say(
+            "note: the result file is not in the case, which would be larger than 5 MB with it; the case has the SHA-256 of every output, and --verify --again compares them",
+        );
+    }
     print(&format!("SHA-256   {}\nsize      {:.2} MB\n", sha256(&case), case.len() as f64 / 1e6))?;
     Ok(Done::Well)
 }
@@ -111,9 +116,7 @@ fn run_again(bytes: &[u8], parts: &[Part]) -> Result<Done, Failure> {
     if !String::from_utf8_lossy(bytes).contains(&build) {
         say(&format!("note: the case was sealed by another build; this is {build}"));
     }
-    let run = parts.iter().find(|part| part.name == RUN);
-    let run = run.ok_or_else(|| Failure::plain(format!("the case has no part {RUN}")))?;
-    match again(&Results::of_bytes(Path::new(RUN), &run.bytes)?)? {
+    match again(parts)? {
         Same::Yes(outputs) => {
             print(&format!("run again: all {outputs} outputs are the same to the bit\n")).map(|()| Done::Well)
         }

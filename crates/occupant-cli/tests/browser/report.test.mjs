@@ -2,24 +2,25 @@
 // node report.test.mjs FOLDER [SCREENSHOTS]
 //
 // The folder has the pages that run.sh makes: report of cart-lap-torso, judged with --verdict, comparison with --against
-// cart-unbelted, two of two occupants, thrown of a pedestrian, study of scenarios/studies/screening-morris.toml.
+// cart-unbelted, two of two occupants, thrown of a pedestrian, study of scenarios/studies/screening-morris.toml, sealed of
+// cart-lap-torso with a film.
 
 import assert from "node:assert/strict";
-import { mkdirSync, statSync } from "node:fs";
+import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { withBrowser } from "./browser.mjs";
 
 const [folder, pictures] = process.argv.slice(2).map((path) => resolve(path));
 if (!folder) throw new Error("give the folder of the pages");
-const [report, judged, comparison, two, thrown, study] = ["report", "judged", "comparison", "two", "thrown", "study"].map(
-  (name) => join(folder, `${name}.html`),
-);
+const [report, judged, comparison, two, thrown, study, sealed] = [
+  "report", "judged", "comparison", "two", "thrown", "study", "sealed",
+].map((name) => join(folder, `${name}.html`));
 if (pictures) mkdirSync(pictures, { recursive: true });
 
 /** A report of 0.2 s at 1 kHz, the program of the page included. */
 const MOST_BYTES = 3e6;
 
-const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark, isShort, tellsFirst, judgesOnlyDummies, hasTabs, separatesLabels, drawsThrows, prints, foldsStudies };
+const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark, isShort, tellsFirst, judgesOnlyDummies, hasTabs, separatesLabels, drawsThrows, prints, foldsStudies, verifiesItself };
 
 const state = (page) =>
   page.evaluate(() => {
@@ -384,6 +385,34 @@ async function foldsStudies(open) {
   await page.locator("a[href='#r0']").first().click();
   assert.ok(await section.isVisible(), "the link does not unfold its section");
   await picture(page, "study");
+  return page;
+}
+
+async function verifiesItself(open) {
+  const page = await open(sealed);
+  const bytes = readFileSync(sealed);
+  const answer = async (buffer) => {
+    await page.locator("#seal-answer").evaluate((node) => (node.textContent = ""));
+    await page.locator("#seal-file").setInputFiles({ name: "case.html", mimeType: "text/html", buffer });
+    await page.waitForFunction(() => document.getElementById("seal-answer").textContent);
+    return page.locator("#seal-answer").textContent();
+  };
+  assert.match(await answer(bytes), /^Every byte is as sealed\.\nSHA-256 of the file: [0-9a-f]{64}$/);
+  for (const at of [0, bytes.length >> 1, bytes.length - 200, bytes.length - 1]) {
+    const altered = Buffer.from(bytes);
+    altered[at] ^= 1;
+    assert.match(await answer(altered), /^ALTERED: /, `byte ${at}`);
+  }
+  assert.match(await answer(Buffer.from("nothing of the sort")), /^ALTERED/);
+  // what was added is shown, and the page is no wider than a phone
+  assert.ok(await page.locator("img[alt='an added picture']").evaluate((image) => image.naturalWidth > 100));
+  await page.setViewportSize({ width: 360, height: 740 });
+  await settled(page);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(wide <= 360, `${wide} px`);
+  if (pictures) await page.locator("#sealed").screenshot({ path: join(pictures, "sealed-360.png") });
+  await page.setViewportSize({ width: 1280, height: 800 });
+  if (pictures) await page.locator("#sealed").screenshot({ path: join(pictures, "sealed.png") });
   return page;
 }
 

@@ -15,6 +15,8 @@ for case in cart-lap-torso cart-unbelted; do
 done
 "$occupant" report "$out/cart-lap-torso.mcap" --output "$out/report.html"
 "$occupant" report "$out/cart-lap-torso.mcap" --verdict --output "$out/judged.html"
+"$occupant" view "$out/cart-lap-torso.mcap" --output "$out/film.png" --3d >/dev/null
+"$occupant" seal "$out/cart-lap-torso.mcap" --output "$out/sealed.html" --add "$out/film.png" >/dev/null
 "$occupant" run "$root/tests/data/hand/side-by-side.toml" --quiet --output "$out/two.mcap" --set "time.end=80 ms"
 "$occupant" report "$out/two.mcap" --output "$out/two.html"
 "$occupant" run "$root/scenarios/pedestrian.toml" --quiet --output "$out/thrown.mcap"

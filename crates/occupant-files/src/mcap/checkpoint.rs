@@ -25,6 +25,13 @@ pub fn write(wire: &mut Wire, sample: &Sample<'_>) {
     sample.checkpoint().keep(wire);
 }
 
+/// The fields of the message of an output.
+pub fn encoded(checkpoint: &Checkpoint) -> Vec<u8> {
+    let mut wire = Wire::default();
+    checkpoint.clone().keep(&mut wire);
+    wire.bytes
+}
+
 /// Parses the message. Fields missing from the file stay empty.
 ///
 /// # Errors

@@ -19,12 +19,14 @@ use std::path::Path;
 use crate::base::{Failure, Units, file_name};
 use crate::report;
 use crate::sweep::Stored;
+use again::states;
 use occupant_files::mcap::StoredRun;
 use occupant_files::mcap::about::RESOLVED;
 use occupant_files::results::Results;
+use page::Listed;
 
 /// Name of the part with the results.
-pub const RUN: &str = "run.mcap";
+const RUN: &str = "run.mcap";
 
 /// What is sealed with a run.
 #[derive(Default)]
@@ -35,45 +37,59 @@ pub struct Beside {
     pub study: Option<Stored>,
 }
 
+/// A sealed case, and whether the results are in it.
+pub struct Sealed {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// Whether it holds the result file. A case that would be too large with it goes without; it lists the SHA-256 of
+    /// every output.
+    pub holds_run: bool,
+}
+
 /// The sealed case of a run. `build` describes the program.
 ///
 /// # Errors
-/// A file that holds no run; a run that comes out otherwise here; names that two parts have; a case that is too large; a
-/// study that cannot be read.
-pub fn seal(run: (&Path, &[u8]), build: &str, beside: Beside, units: Option<Units>) -> Result<Vec<u8>, Failure> {
+/// A file that holds no run; a run that comes out otherwise here; names that two parts have; a case that is too large
+/// without the results; a study that cannot be read.
+pub fn seal(run: (&Path, &[u8]), build: &str, beside: Beside, units: Option<Units>) -> Result<Sealed, Failure> {
     let (path, bytes) = run;
     let results = Results::of_bytes(path, bytes)?;
-    if let Same::No(why) = again(&results)? {
+    let mut parts = vec![Part::new(RUN, bytes.to_vec()), states(&results.checkpoints)];
+    parts.extend(texts(&results, bytes)?);
+    if let Same::No(why) = again(&parts)? {
         let found = format!("{} is not what this program computes: {why}", path.display());
         return Err(Failure::with_help(found, "seal the run with the program that made it, or run it again"));
     }
-    let stored = StoredRun::read(bytes).map_err(Failure::plain)?;
     let units = units.unwrap_or_else(|| Units::asked(None, results.loaded.scenario.units));
     let sheet = sheet::sheet(&results)?;
-    let own = results.run.get("scenario").map(String::as_str).unwrap_or_default();
-    let mut parts = vec![Part::new(RUN, bytes.to_vec())];
-    parts.extend(texts(&results, &stored, own));
-    parts.push(Part::new("motion.csv", sheet.csv().into_bytes()));
-    let study = beside.study.map(|study| quoted::quoted(study, stored.attachments.get(own), units)).transpose()?;
+    parts.push(Part::new(sheet::MOTION, sheet.csv().into_bytes()));
+    let study = beside.study.map(|study| quoted::quoted(study, &results, units)).transpose()?;
     parts.extend(study.iter().map(|study| study.part.clone()));
     parts.extend(beside.added);
     refuse_names(&parts)?;
-    let name = file_name(path);
     let inputs = inputs::inputs(&results);
     let page = report::page(std::slice::from_ref(&results), &[], units)?;
-    let section = page::section(&name, build, &results, (&inputs, &sheet, study.as_ref()), &parts);
-    pack::pack(&page, &section, &parts)
+    let pack = |parts: &[Part], left: Option<&Part>| {
+        let listed = Listed { name: file_name(path), build, parts, left };
+        pack::pack(&page, &page::section(&results, (&inputs, &sheet, study.as_ref()), &listed), parts)
+    };
+    let whole = pack(&parts, None)?;
+    let holds_run = whole.bytes.len() <= MOST_BYTES;
+    let packed = if holds_run { whole } else { pack(&parts[1..], Some(&parts[0]))? };
+    Ok(Sealed { bytes: packed.checked()?, holds_run })
 }
 
 /// The scenario with its presets written out, the same as written, and the tables that it names.
-fn texts(results: &Results, stored: &StoredRun, own: &str) -> Vec<Part> {
+fn texts(results: &Results, bytes: &[u8]) -> Result<Vec<Part>, Failure> {
+    let stored = StoredRun::read(bytes).map_err(Failure::plain)?;
+    let own = results.run.get("scenario").map(String::as_str).unwrap_or_default();
     let scenario = stored.attachments.iter().filter_map(|(name, bytes)| match name.as_str() {
         RESOLVED => Some(Part::new(name, bytes.clone())),
         written if written == own => Some(Part::new(&format!("as-written/{name}"), bytes.clone())),
         _ => None,
     });
     let tables = results.loaded.tables().into_iter().map(|(name, text)| Part::new(name, text.as_bytes().to_vec()));
-    scenario.chain(tables).collect()
+    Ok(scenario.chain(tables).collect())
 }
 
 /// Refuses names that two parts have, and those that would leave the folder they are put into.

@@ -19,8 +19,9 @@ pub const MOST_BYTES: usize = 5_000_000;
 const PIECE: usize = 16_384;
 /// Largest part when it is unpacked, bytes.
 const MOST_UNPACKED: u64 = 64 << 20;
-/// Place of a picture on the page.
-const PICTURE: &str = "<p style=\"max-width:1500px;margin:0 auto;padding:0 16px 16px\">";
+/// Place of a picture or film on the page.
+const PLACE: &str = "<p style=\"max-width:1500px;margin:0 auto;padding:0 16px 16px\">";
+const WIDTH: &str = "style=\"max-width:100%\"";
 const BEGIN: &str = "<!-- occupant seal 1\n";
 
 /// A file in a case.
@@ -79,8 +80,14 @@ pub struct Case<'a> {
     pub faults: Vec<Fault>,
 }
 
+/// A case of any size.
+pub(super) struct Packed {
+    pub bytes: Vec<u8>,
+    sections: Vec<Section>,
+}
+
 /// Page with the section put in, parts and seal.
-pub(super) fn pack(page: &str, section: &str, parts: &[Part]) -> Result<Vec<u8>, Failure> {
+pub(super) fn pack(page: &str, section: &str, parts: &[Part]) -> Result<Packed, Failure> {
     let (before, after) = page.rsplit_once("</body>").unwrap_or((page, ""));
     let (mut bytes, mut sections) = (Vec::new(), Vec::new());
     let mut put = |name: &str, own: &[u8], part: Option<&Part>| {
@@ -102,7 +109,18 @@ pub(super) fn pack(page: &str, section: &str, parts: &[Part]) -> Result<Vec<u8>,
     put("the end of the page", format!("</body>{after}").as_bytes(), None);
     let seal = tail(&sections)?;
     bytes.extend_from_slice(seal.as_bytes());
-    if bytes.len() > MOST_BYTES { Err(too_large(bytes.len(), &sections)) } else { Ok(bytes) }
+    Ok(Packed { bytes, sections })
+}
+
+impl Packed {
+    /// Its bytes.
+    ///
+    /// # Errors
+    /// A case that is too large.
+    pub(super) fn checked(self) -> Result<Vec<u8>, Failure> {
+        let size = self.bytes.len();
+        if size > MOST_BYTES { Err(too_large(size, &self.sections)) } else { Ok(self.bytes) }
+    }
 }
 
 fn too_large(size: usize, sections: &[Section]) -> Failure {
@@ -115,16 +133,13 @@ fn too_large(size: usize, sections: &[Section]) -> Failure {
         MOST_BYTES / 1_000_000,
         sizes.join(", ")
     );
-    Failure::with_help(
-        found,
-        "leave out a film or an added file, or run with a longer output.interval or an earlier time.end",
-    )
+    Failure::with_help(found, "leave out a film or an added file, or make the film shorter or smaller")
 }
 
 /// A part in its envelope.
 fn packed(part: &Part) -> Result<String, Failure> {
-    let ([before, after], is_picture) = envelope(&part.name);
-    let content = if is_picture { STANDARD.encode(&part.bytes) } else { STANDARD.encode(gzip(&part.bytes)?) };
+    let Envelope { before, after, is_shown } = Envelope::of(&part.name);
+    let content = if is_shown { STANDARD.encode(&part.bytes) } else { STANDARD.encode(gzip(&part.bytes)?) };
     Ok(format!("{before}{content}{after}"))
 }
 
@@ -134,16 +149,27 @@ fn gzip(bytes: &[u8]) -> Result<Vec<u8>, Failure> {
     done.map_err(|e| Failure::plain(format!("a part cannot be compressed: {e}")))
 }
 
-/// What stands before and after the base64 of a part, and whether it is a picture: the page shows that very copy, so it is
-/// not compressed. No name stands here.
-fn envelope(name: &str) -> ([String; 2], bool) {
-    let kind = ending(Path::new(name));
-    if ["png", "gif"].contains(&&*kind) {
-        let before =
-            format!("{PICTURE}<img style=\"max-width:100%\" alt=\"an added picture\" src=\"data:image/{kind};base64,");
-        ([before, "\"></p>\n".to_owned()], true)
-    } else {
-        (["<script type=\"text/plain\">", "</script>\n"].map(str::to_owned), false)
+/// What stands before and after the base64 of a part. No name stands here.
+struct Envelope {
+    before: String,
+    after: &'static str,
+    /// Whether the page shows that very copy: it is not compressed then.
+    is_shown: bool,
+}
+
+impl Envelope {
+    fn of(name: &str) -> Self {
+        let kind = ending(Path::new(name));
+        let tag = match &*kind {
+            "png" | "gif" => format!("<img alt=\"an added picture\" {WIDTH} src=\"data:image/{kind};base64,"),
+            "mp4" => format!("<video controls {WIDTH} src=\"data:video/mp4;base64,"),
+            _ => {
+                let before = "<script type=\"text/plain\">".to_owned();
+                return Envelope { before, after: "</script>\n", is_shown: false };
+            }
+        };
+        let after = if kind == "mp4" { "\"></video></p>\n" } else { "\"></p>\n" };
+        Envelope { before: PLACE.to_owned() + &tag, after, is_shown: true }
     }
 }
 
@@ -202,12 +228,12 @@ impl<'a> Case<'a> {
         let wrong = || Failure::plain(format!("{} cannot be unpacked, or is not what its seal says", section.name));
         let text = std::str::from_utf8(self.text(section)).map_err(|_| wrong())?;
         let name = section.name.strip_prefix("part ").ok_or_else(wrong)?;
-        let ([before, after], is_picture) = envelope(name);
-        let text = text.strip_prefix(&before).and_then(|text| text.strip_suffix(&after)).ok_or_else(wrong)?;
+        let Envelope { before, after, is_shown } = Envelope::of(name);
+        let text = text.strip_prefix(&*before).and_then(|text| text.strip_suffix(&after)).ok_or_else(wrong)?;
         let content = STANDARD.decode(text).map_err(|_| wrong())?;
         let mut bytes = Vec::new();
         let most = length.min(MOST_UNPACKED);
-        let read = match is_picture {
+        let read = match is_shown {
             true => content.as_slice().take(most).read_to_end(&mut bytes),
             false => GzDecoder::new(&content[..]).take(most).read_to_end(&mut bytes),
         };

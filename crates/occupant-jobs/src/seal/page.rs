@@ -1,9 +1,10 @@
 //! The section of a page that lists what is sealed.
 
+use super::again::STATES;
 use super::inputs::Input;
 use super::pack::Part;
 use super::quoted::Quoted;
-use super::sheet::{COLUMNS, Row, Sheet, shown};
+use super::sheet::{COLUMNS, MOTION, Row, Sheet, shown};
 use crate::study::all_words;
 use occupant_files::base::{ending, sha256};
 use occupant_files::results::Results;
@@ -17,13 +18,24 @@ pub(super) const OTHER_STUDY: &str = "The study varies another text than the sce
 
 const SCRIPT: &str = include_str!("../../assets/seal/verify.js");
 
+/// What the page says of the file itself.
+pub(super) struct Listed<'a> {
+    /// Name of the result file.
+    pub name: String,
+    /// The program that seals.
+    pub build: &'a str,
+    pub parts: &'a [Part],
+    /// The results, if the case would be too large with them.
+    pub left: Option<&'a Part>,
+}
+
+const LEFT: &str = "The result file is not in this case, which would be larger than 5 MB with it. states.csv has the SHA-256 of every output of it; `occupant seal CASE.html --verify --again` makes the run again and compares them. `occupant run resolved.toml` in the folder of `--extract` writes the results anew.";
+
 /// HTML of the section; texts of users are escaped.
 pub(super) fn section(
-    name: &str,
-    build: &str,
     results: &Results,
     (inputs, sheet, study): (&[Input], &Sheet, Option<&Quoted>),
-    parts: &[Part],
+    listed: &Listed<'_>,
 ) -> String {
     let mut html = Html::default();
     html.raw("<div class=\"study\" id=\"sealed\" style=\"max-width:1500px;margin:0 auto;padding:0 16px 24px\">\n");
@@ -31,17 +43,25 @@ pub(super) fn section(
     html.text("p", "Choose this very file to compare its bytes with its seal, without a network. The seal finds what was altered by accident or after it; whoever rewrites a file can seal it anew, so compare the SHA-256 of the file with the one that was told.");
     html.raw("<p><input type=\"file\" id=\"seal-file\" accept=\".html\"></p>\n<pre id=\"seal-answer\"></pre>\n");
     let ran_by = results.run.get("program").cloned().unwrap_or_default();
-    html.facts(&[("run", name.to_owned()), ("written by", ran_by), ("sealed by, same bits", build.to_owned())]);
+    html.facts(&[
+        ("run", listed.name.clone()),
+        ("written by", ran_by),
+        ("sealed by, same bits", listed.build.to_owned()),
+    ]);
     html.text("h3", "Parts");
-    let rows: Vec<Vec<Cell>> = parts.iter().map(row_of_part).collect();
+    let rows: Vec<Vec<Cell>> = listed.parts.iter().chain(listed.left).map(row_of_part).collect();
     html.table(&["part", "bytes", "SHA-256"], &rows);
+    listed.left.iter().for_each(|_| html.text("p class=\"note\"", LEFT));
     study.iter().for_each(|study| say(&mut html, study));
     html.fold(&format!("Values that were set: {}", inputs.len()));
     let rows: Vec<Vec<Cell>> = inputs.iter().map(row_of_input).collect();
     html.table(&["key", "value", "where", "preset or earlier value"], &rows);
     html.unfold();
-    let texts =
-        parts.iter().filter(|part| ["toml", "csv", "json", "txt", "md"].contains(&&*ending(Path::new(&part.name))));
+    let texts = listed
+        .parts
+        .iter()
+        .filter(|part| ![STATES, MOTION].contains(&&*part.name))
+        .filter(|part| ["toml", "csv", "json", "txt", "md"].contains(&&*ending(Path::new(&part.name))));
     for part in texts {
         html.fold(&format!("{}: whole text", part.name));
         html.text("pre", &String::from_utf8_lossy(&part.bytes));

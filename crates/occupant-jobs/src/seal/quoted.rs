@@ -5,6 +5,7 @@ use crate::base::{Failure, Show, Units};
 use crate::study::{Report, answer};
 use crate::sweep::Stored;
 use occupant_files::base::sha256;
+use occupant_files::results::Results;
 
 /// A study, read.
 pub(super) struct Quoted {
@@ -15,12 +16,13 @@ pub(super) struct Quoted {
     pub part: Part,
 }
 
-/// The study's figures with their intervals; `own` is the scenario of the run.
-pub(super) fn quoted(stored: Stored, own: Option<&Vec<u8>>, units: Units) -> Result<Quoted, Failure> {
+/// The study's figures with their intervals, and whether it varies the scenario of the run.
+pub(super) fn quoted(stored: Stored, results: &Results, units: Units) -> Result<Quoted, Failure> {
     let report = Report::of(stored, &[], &[], units, Show::NOTHING)?;
     let json = serde_json::to_vec_pretty(&answer(&report));
     let json = json.map_err(|e| Failure::plain(format!("the study's answer is not JSON: {e}")))?;
     let varied = report.opened.manifest.texts.get(1);
-    let is_of_this = own.zip(varied).is_some_and(|(own, varied)| sha256(own) == varied.sha256);
+    let is_of_this =
+        results.scenario_text.as_ref().zip(varied).is_some_and(|(own, varied)| sha256(own.as_bytes()) == varied.sha256);
     Ok(Quoted { is_of_this, part: Part::new("study/quotes.json", json), report })
 }

@@ -16,6 +16,9 @@ use occupant_core::results::sample::Sample;
 use occupant_core::vehicle::{Attitude, PathCursor, VehiclePose};
 use occupant_files::results::Results;
 
+/// Name of the part with the sheet.
+pub(super) const MOTION: &str = "motion.csv";
+
 /// Interval of the rows, s.
 const INTERVAL_S: f64 = 0.05;
 /// Columns of a row.
