@@ -357,7 +357,8 @@ fn a_whole_record_of_nhtsa_is_read() {
     for words in [
         "note: curve 006, SHOULDER BELT: Not installed, has no file: skipped",
         "note: curve 013, BOTTOM OF ENGINE X: No valid data after 67ms, has the status CF",
-        "note: the path is that of FLLR; choose another with --at: FLLR, ENGN",
+        "note: locations on the vehicle disagree on its forward delta-v, km/h: FLLR -80.9, ENGN -134.8",
+        "note: the path is that of FLLR, which has the least ringing; the locations do not agree on the delta-v; choose another with --at: FLLR, ENGN",
         "wrote crash-path.csv: accelerations at FLLR, 170 times",
         "wrote crash-curves.csv: 10 signals",
     ] {

@@ -48,8 +48,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME|NUMBER")]
     vehicle: Option<String>,
 
-    /// Which accelerometer location of the test to use; if absent the centre of gravity, else the location with least ringing
-    /// among those that agree on delta-v
+    /// Which accelerometer location of the test to use, such as DSLF, or DSLF+DSRF for the mean; if absent the one with least
+    /// ringing among those that agree on delta-v
     #[arg(long, value_name = "PLACE")]
     at: Option<String>,
 

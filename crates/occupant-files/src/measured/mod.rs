@@ -4,6 +4,7 @@
 
 mod axes;
 mod doubts;
+mod locations;
 mod motion;
 mod nhtsa;
 mod pair;

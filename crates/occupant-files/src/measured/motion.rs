@@ -1,10 +1,13 @@
 //! Which signals of a record are the motion of its vehicle, side by side at common times: accelerations and rates, velocity changes, or
 //! places and angles. They keep their file's units and axes.
 
+use std::borrow::Cow;
+
 use crash_measures::signal::{Hole, bridged, holes, usual_interval};
 use occupant_core::vehicle::{Station, unwrap_angles};
 use occupant_scenario::{column_in, column_named};
 
+use super::locations::{JOIN, Location, chosen, disagreement, locations, named};
 use crate::base::Failure;
 use crate::signals::{Recording, Signal};
 
@@ -64,7 +67,7 @@ pub struct Motion {
 }
 
 /// Signals found, by column.
-type Found<'a> = Vec<(&'static str, &'a Signal)>;
+type Found<'a> = Vec<(&'static str, Cow<'a, Signal>)>;
 
 /// Choice of signals, and gaps to bridge.
 #[derive(Clone, Copy, Debug, Default)]
@@ -81,20 +84,11 @@ impl Motion {
     /// # Errors
     /// A place that has no accelerometers; a signal without a unit; a hole that was not to be bridged.
     pub fn of(recording: &Recording, placed: Placed, notes: &mut Vec<String>) -> Result<Option<Self>, Failure> {
-        let (kind, found, words) = match placed.at {
-            Some(place) => accelerometers(recording, Some(place), notes)?,
-            None => match plain(recording) {
-                (_, found, _) if found.is_empty() => accelerometers(recording, None, notes)?,
-                found => found,
-            },
-        };
+        let (kind, found, words) = recorded(recording, placed.at, notes)?;
         let Some((_, first)) = found.first() else { return Ok(None) };
         notes.extend(beyond(&found, first));
-        if placed.at.is_none() && kind == MotionKind::Accelerations {
-            say_if_places_differ(recording, notes);
-        }
         notes.extend(found.iter().filter_map(|(name, signal)| doubled(recording, name, signal)));
-        let column = |(name, signal): &(&'static str, &Signal)| {
+        let column = |(name, signal): &(&'static str, Cow<'_, Signal>)| {
             let (scale, unit) = signal.scale.zip(signal.unit.clone()).ok_or_else(|| without_unit(signal))?;
             if column_in(name, scale.dimension) != Some(*name) {
                 return Err(Failure::with_help(
@@ -109,7 +103,7 @@ impl Motion {
             words,
             time_s: first.time_s.clone(),
             columns: found.iter().map(column).collect::<Result<_, Failure>>()?,
-            signals: found.iter().map(|(_, signal)| signal.name.clone()).collect(),
+            signals: found.iter().flat_map(|(_, signal)| signal.name.split(JOIN)).map(str::to_owned).collect(),
         };
         motion.trim(notes);
         if motion.time_s.len() < 2 {
@@ -269,7 +263,7 @@ fn without_unit(signal: &Signal) -> Failure {
 }
 
 /// Values at other times, interpolated linearly between existing samples; NaN where there are none.
-fn at_times(signal: &Signal, time_s: &[f64]) -> Vec<f64> {
+pub(super) fn at_times(signal: &Signal, time_s: &[f64]) -> Vec<f64> {
     if signal.time_s == time_s {
         return signal.values.clone();
     }
@@ -319,6 +313,43 @@ fn doubled(recording: &Recording, name: &str, taken: &Signal) -> Option<String> 
     ))
 }
 
+/// The signals that are the motion: those of a place, of a table's own headings, or of the best location on the vehicle.
+fn recorded<'a>(
+    recording: &'a Recording,
+    at: Option<&str>,
+    notes: &mut Vec<String>,
+) -> Result<(MotionKind, Found<'a>, String), Failure> {
+    let (kind, found, words) = plain(recording);
+    let locations = locations(recording);
+    if let Some(words) = at {
+        return Ok(of_location(named(&locations, words)?, found));
+    }
+    // a table's own headings
+    let has_own = found.iter().any(|(name, signal)| *name == "ax" && signal.code.is_none());
+    let Some((best, why)) = chosen(&locations).filter(|_| kind == MotionKind::Accelerations || found.is_empty()) else {
+        return Ok((kind, found, words));
+    };
+    notes.extend(disagreement(&locations));
+    if has_own || best.is_centre() {
+        return Ok((kind, found, words));
+    }
+    let names: Vec<&str> = locations.iter().map(|own| own.name.as_str()).collect();
+    let told = |why| {
+        let (own, all) = (best.told(), names.join(", "));
+        format!("the path is that of {own}, which has {why}; choose another with --at: {all}")
+    };
+    notes.extend(why.map(told));
+    Ok(of_location(best, found))
+}
+
+/// Accelerations of a location, with the rates of the vehicle.
+fn of_location<'a>(own: Location<'a>, found: Found<'a>) -> (MotionKind, Found<'a>, String) {
+    let words = format!("accelerations at {}", own.told());
+    let rates = found.into_iter().filter(|(name, _)| name.starts_with('w'));
+    let columns = OF_RUNS.iter().zip(own.axes).filter_map(|((name, _), signal)| Some((*name, signal?)));
+    (MotionKind::Accelerations, columns.chain(rates).collect(), words)
+}
+
 /// Signals that identify their columns by code, or by heading and unit.
 fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
     let coded = |name: &str| {
@@ -326,10 +357,11 @@ fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
         recording.signals.iter().find(of)
     };
     let named = |name: &str| recording.signals.iter().find(|signal| is_named(signal, name));
-    let of =
-        |names: &[&'static str]| -> Found { names.iter().filter_map(|name| Some((*name, named(name)?))).collect() };
-    let recorded: Found =
-        OF_RUNS.iter().filter_map(|(name, channel)| Some((*name, coded(channel).or_else(|| named(name))?))).collect();
+    let of = |names: &[&'static str]| -> Found {
+        names.iter().filter_map(|name| Some((*name, Cow::Borrowed(named(name)?)))).collect()
+    };
+    let own = |name: &str, channel: &str| coded(channel).or_else(|| named(name)).map(Cow::Borrowed);
+    let recorded: Found = OF_RUNS.iter().filter_map(|(name, channel)| Some((*name, own(name, channel)?))).collect();
     let has_acceleration = recorded.iter().any(|(name, _)| name.starts_with('a'));
     let (changes, places) = (of(&OF_CHANGES), of(&OF_PLACES));
     // rates beside velocity changes or places are theirs
@@ -341,118 +373,6 @@ fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
         return (MotionKind::Changes, changes.into_iter().chain(yaw).collect(), "velocity changes".to_owned());
     }
     (MotionKind::Places, places, "places and angles".to_owned())
-}
-
-/// Of several locations the most representative one: its velocity change agrees with most locations within a tenth, and
-/// among those it rings least (smallest total variation). None if most do not agree.
-fn typical(recording: &Recording) -> Option<(String, String)> {
-    let changes = velocity_changes(recording);
-    let mut sorted: Vec<f64> = changes.iter().map(|(_, change)| *change).collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let (low, high) = (sorted.get(sorted.len().checked_sub(1)? / 2)?, sorted.get(sorted.len() / 2)?);
-    let middle = 0.5 * (low + high);
-    let near = |change: f64| (change - middle).abs() <= (0.1 * middle.abs()).max(0.5);
-    let agree: Vec<&str> = changes.iter().filter(|(_, v)| near(*v)).map(|(place, _)| place.as_str()).collect();
-    let ringing = |place: &&&str| -> f64 {
-        let own = recording
-            .signals
-            .iter()
-            .find(|signal| acceleration(signal).is_some_and(|a| a == ((**place).to_owned(), 0)));
-        own.map_or(f64::INFINITY, |signal| {
-            let steps = signal.values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| step.is_finite());
-            steps.sum::<f64>() * signal.scale.map_or(1.0, |scale| scale.factor.abs())
-        })
-    };
-    let best = agree.iter().min_by(|a, b| ringing(a).total_cmp(&ringing(b)))?;
-    let words = format!(
-        ", which has the least ringing of the {} of {} locations with a forward delta-v of {} km/h ± 10 %",
-        agree.len(),
-        changes.len(),
-        placed_text::number((middle * 3.6).round())
-    );
-    (changes.len() > 2 && 2 * agree.len() > changes.len()).then(|| ((*best).to_owned(), words))
-}
-
-/// The accelerometers at a location, given by a word of their names; by default the representative location with a
-/// longitudinal accelerometer, else the first.
-fn accelerometers<'a>(
-    recording: &'a Recording,
-    place: Option<&str>,
-    notes: &mut Vec<String>,
-) -> Result<(MotionKind, Found<'a>, String), Failure> {
-    let all: Vec<(String, usize, &Signal)> = recording
-        .signals
-        .iter()
-        .filter_map(|signal| acceleration(signal).map(|(of, axis)| (of, axis, signal)))
-        .collect();
-    let mut places: Vec<&str> = Vec::new();
-    for (of, ..) in all.iter().filter(|(_, axis, _)| *axis == 0) {
-        if !places.contains(&of.as_str()) {
-            places.push(of);
-        }
-    }
-    let typical = if place.is_none() { typical(recording) } else { None };
-    let Some(own) = (match (place, &typical) {
-        (Some(word), _) => places.iter().find(|of| of.eq_ignore_ascii_case(word)),
-        (None, Some((typical, _))) => places.iter().find(|of| *of == typical),
-        (None, None) => places.first(),
-    }) else {
-        return match place {
-            None => Ok((MotionKind::Accelerations, Vec::new(), String::new())),
-            Some(word) => Err(Failure::with_help(
-                format!("--at {word}: this location has no forward accelerometer"),
-                &format!("places are {}", if places.is_empty() { "none".to_owned() } else { places.join(", ") }),
-            )),
-        };
-    };
-    if place.is_none() && places.len() > 1 {
-        let why = typical.map(|(_, why)| why).unwrap_or_default();
-        notes.push(format!("the path is that of {own}{why}; choose another with --at: {}", places.join(", ")));
-    }
-    let axis = |axis: usize| all.iter().find(|(of, along, _)| of == own && *along == axis).map(|(.., signal)| *signal);
-    let columns = [0, 1, 2].iter().filter_map(|&i| Some((OF_RUNS[i].0, axis(i)?))).collect();
-    Ok((MotionKind::Accelerations, columns, format!("accelerations at {own}")))
-}
-
-/// Location and axis of a vehicle accelerometer, by code or NHTSA name; none for other signals.
-fn acceleration(signal: &Signal) -> Option<(String, usize)> {
-    if let Some(code) = signal.code {
-        return code.vehicle_acceleration();
-    }
-    let parts: Vec<&str> = signal.name.split('_').collect();
-    match parts[..] {
-        ["NA", place, axis, "AC"] => Some((place.to_owned(), "XYZ".find(axis.chars().next()?)?)),
-        _ => None,
-    }
-}
-
-/// Notes if locations of the vehicle give velocity changes that differ by more than a tenth.
-fn say_if_places_differ(recording: &Recording, notes: &mut Vec<String>) {
-    let changes = velocity_changes(recording);
-    let of = |pick: fn(f64, f64) -> f64| changes.iter().map(|(_, v)| *v).reduce(pick);
-    let (Some(least), Some(most)) = (of(f64::min), of(f64::max)) else { return };
-    if most - least > 0.1 * most.abs().max(least.abs()) && most - least > 0.5 {
-        let told = changes.iter().map(|(place, v)| format!("{place} {:.1}", v * 3.6));
-        let told = told.collect::<Vec<_>>().join(", ");
-        notes.push(format!(
-            "locations on the vehicle disagree on its forward delta-v, km/h: {told}; choose another with --at"
-        ));
-    }
-}
-
-/// Longitudinal velocity change at each location with a longitudinal accelerometer, m/s.
-fn velocity_changes(recording: &Recording) -> Vec<(String, f64)> {
-    let mut found: Vec<(String, f64)> = Vec::new();
-    for signal in &recording.signals {
-        let (Some((place, 0)), Some(scale)) = (acceleration(signal), signal.scale) else { continue };
-        if found.iter().any(|(own, _)| *own == place) {
-            continue;
-        }
-        let samples = signal.time_s.windows(2).zip(signal.values.windows(2)).filter(|(_, v)| !(v[0] + v[1]).is_nan());
-        let sum: f64 = samples.map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1])).sum();
-        found.push((place, sum * scale.factor));
-    }
-    found
 }
 
 #[cfg(test)]
