@@ -2,7 +2,8 @@
 //!
 //! The direction is that of the delta-v, the sum of the changes of velocity in axes of the vehicle, when it is largest in
 //! the horizontal plane: from the front or from behind up to 45° beside the longitudinal axis, else from the
-//! side. A vehicle that tilts by more than 45° rolls over, whatever the delta-v.
+//! side. A vehicle that tilts by more than 45° rolls over, whatever the delta-v. A body whose own frame does not move, and
+//! which is thrown, was struck on foot. Risks from frontal tests are left out in other impacts.
 
 use crash_measures::injury::{self, Judgement, Options, RULES};
 use crash_measures::measure::{Blow, Dummy, Grade, LIMITS, Limit, Quantity};
@@ -25,7 +26,7 @@ const TILT_DEG: f64 = 45.0;
 /// Direction of the impact on the vehicle of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// From the front, the side or behind.
+    /// From the front, the side or behind, or on foot.
     Blow(Blow),
     /// The vehicle rolls over.
     Rollover,
@@ -43,6 +44,8 @@ struct Carried {
     delta_v_m_s: Vector3<f64>,
     /// Least cosine of the tilt.
     upright: f64,
+    /// When the body was struck on foot, s.
+    struck_s: Option<f64>,
 }
 
 /// Watches the vehicles of all bodies during a run.
@@ -75,7 +78,7 @@ impl Carried {
             return Direction::Rollover;
         }
         if self.delta_v_m_s.xy().norm() < LEAST_M_S {
-            return Direction::None;
+            return self.struck_s.map_or(Direction::None, |_| Direction::Blow(Blow::OnFoot));
         }
         match self.angle_deg() {
             angle if angle <= SECTOR_DEG => Direction::Blow(Blow::Front),
@@ -101,6 +104,10 @@ impl Carried {
             Direction::Blow(Blow::Front) => format!("Frontal impact: {why}"),
             Direction::Blow(Blow::Side) => format!("Side impact from the {side}: {why}"),
             Direction::Blow(Blow::Rear) => format!("Rear impact: {why}"),
+            Direction::Blow(Blow::OnFoot) => format!(
+                "Struck on foot at {:.1} ms: limits are those of headforms on the fronts of cars",
+                1e3 * self.struck_s.unwrap_or_default()
+            ),
         }
     }
 }
@@ -123,7 +130,11 @@ impl Impact {
     }
 
     /// Judges all bodies by the rules for their impacts. Rules without a direction hold for all.
-    pub fn judge(&self, summary: &mut Summary, model: &Model) {
+    pub fn judge(&mut self, summary: &mut Summary, model: &Model) {
+        for (body, carried) in model.body().tree.bodies().iter().zip(&mut self.bodies) {
+            let struck_s = summary.throws.get(body.name).map(|throw| throw.struck_s);
+            carried.iter_mut().for_each(|own| own.struck_s = struck_s);
+        }
         let (name, dummy, measures) = (summary.occupant, &mut summary.dummy, &mut summary.measures);
         self.judge_one(name, dummy, measures, model);
         let others = summary.others.iter().map(|(name, person)| {
@@ -137,13 +148,21 @@ impl Impact {
     fn judge_one(&self, name: &str, dummy: &mut &'static str, measures: &mut [injury::Measure], model: &Model) {
         let tree = model.body().tree;
         let Some(body) = tree.bodies().iter().position(|row| row.name == name) else { return };
-        match self.direction(body) {
+        let direction = self.direction(body);
+        if ![Direction::None, Direction::Blow(Blow::Front)].contains(&direction) {
+            measures.iter_mut().filter(|own| FRONTAL_RISKS.contains(&own.name)).for_each(|own| own.risks.clear());
+        }
+        match direction {
             Direction::None => {}
+            Direction::Blow(Blow::OnFoot) => {
+                let options = Options::default();
+                measures.iter_mut().for_each(|own| judge_by(own, Blow::OnFoot, &options));
+            }
             Direction::Blow(Blow::Side) => {
                 let own = tree.segments().filter(|one| tree.body_of(*one) == body);
                 let options = Options::default().for_side(own.map(|one| model.body().segment(one).mass_kg).sum());
                 *dummy = options.dummy.name();
-                measures.iter_mut().for_each(|m| judge_by_side(m, &options));
+                measures.iter_mut().for_each(|own| judge_by(own, Blow::Side, &options));
             }
             direction => measures.iter_mut().for_each(|m| m.limits.retain(|limit| fits(limit.rule, direction))),
         }
@@ -156,26 +175,37 @@ fn fits(rule: &str, direction: Direction) -> bool {
     blow.is_none_or(|blow| Direction::Blow(blow) == direction)
 }
 
-/// Quantities that rules for the side limit and that every body has, by the names of their measures.
+/// Measures whose risks are from frontal tests.
+const FRONTAL_RISKS: [&str; 8] = [
+    "nij",
+    "neck_tension",
+    "neck_compression",
+    "chest_3ms_cumulative",
+    "chest_deflection",
+    "cti",
+    "right_femur",
+    "left_femur",
+];
+
+/// Quantities that rules for other impacts limit and that every body has, by the names of their measures.
 const OF_ALL: [(&str, Quantity); 3] =
     [("hic15", Quantity::Hic15), ("hic36", Quantity::Hic36), ("head_3ms_cumulative", Quantity::HeadThreeMsCumulative)];
 
-/// Leaves the limits of rules for the side. Measures that a body without yielding ribs has get those of a dummy.
-fn judge_by_side(measure: &mut injury::Measure, options: &Options) {
-    let side = Direction::Blow(Blow::Side);
-    measure.limits.retain(|limit| fits(limit.rule, side));
+/// Leaves the limits of rules for an impact. Measures of every body that have none get those of a dummy.
+fn judge_by(measure: &mut injury::Measure, blow: Blow, options: &Options) {
+    measure.limits.retain(|limit| fits(limit.rule, Direction::Blow(blow)));
     let is_judged =
         measure.limits.iter().any(|limit| RULES.iter().any(|r| r.name() == limit.rule && r.blow().is_some()));
     let known = OF_ALL.iter().find(|(name, _)| *name == measure.name).filter(|_| !is_judged);
     if let (Some((_, quantity)), Some(value)) = (known, measure.value) {
-        measure.limits.extend(side_limits(*quantity, options.dummy).map(|limit| Judgement::of(limit, value)));
+        measure.limits.extend(limits(*quantity, blow, options.dummy).map(|limit| Judgement::of(limit, value)));
     }
 }
 
-fn side_limits(quantity: Quantity, dummy: Dummy) -> impl Iterator<Item = &'static Limit> {
+fn limits(quantity: Quantity, blow: Blow, dummy: Dummy) -> impl Iterator<Item = &'static Limit> {
     let is_own = move |limit: &&Limit| limit.dummy.is_none_or(|own| own == dummy) && limit.quantity == quantity;
     let is_last = |limit: &&Limit| matches!(limit.grade, Grade::Maximum | Grade::LowerPerformance);
-    LIMITS.iter().filter(|limit| limit.rule.blow() == Some(Blow::Side)).filter(is_own).filter(is_last)
+    LIMITS.iter().filter(move |limit| limit.rule.blow() == Some(blow)).filter(is_own).filter(is_last)
 }
 
 impl Recorder for Impact {
@@ -193,6 +223,7 @@ impl Recorder for Impact {
                 now_m_s: Vector3::zeros(),
                 delta_v_m_s: Vector3::zeros(),
                 upright: 1.0,
+                struck_s: None,
             };
             carried.get_or_insert_with(new).see(&home.rotation, home.velocity_m_s);
         }
@@ -213,6 +244,7 @@ mod tests {
             now_m_s: Vector3::zeros(),
             delta_v_m_s: Vector3::zeros(),
             upright: 1.0,
+            struck_s: None,
         };
         let mut carried = new(velocity);
         for i in 0..=1000 {
@@ -253,6 +285,22 @@ mod tests {
         let side = Direction::Blow(Blow::Side);
         assert!(!fits("FMVSS 208", side) && fits("UN R95", side) && fits("severity index (historical)", side));
         assert!(!fits("FMVSS 208", Direction::Rollover) && fits("FMVSS 208", Direction::Blow(Blow::Front)));
-        assert!(side_limits(Quantity::Hic36, Dummy::Es2).count() > 0);
+        assert!(limits(Quantity::Hic36, Blow::Side, Dummy::Es2).count() > 0);
+        assert!(
+            fits("UN R127 (headform)", Direction::Blow(Blow::OnFoot)) && !fits("UN R94", Direction::Blow(Blow::OnFoot))
+        );
+    }
+
+    #[test]
+    fn a_body_on_the_ground_that_is_thrown_was_struck_on_foot() {
+        let mut still = pushed([0.0; 3], 0.0);
+        assert_eq!(still.direction(), Direction::None);
+        still.struck_s = Some(0.0738);
+        assert_eq!(still.direction(), Direction::Blow(Blow::OnFoot));
+        assert!(still.reason(Units::default()).contains("on foot at 73.8 ms"));
+        // who is thrown out of a vehicle that is hit is judged by the impact on it
+        let mut hit = pushed([-8.0, 0.0, 0.0], 0.0);
+        hit.struck_s = Some(0.1);
+        assert_eq!(hit.direction(), Direction::Blow(Blow::Front));
     }
 }

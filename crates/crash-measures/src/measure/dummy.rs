@@ -27,7 +27,7 @@ pub enum Dummy {
     BioRidIi,
 }
 
-/// Direction of impact that a dummy was designed for. Criteria of another direction are meaningless for it.
+/// Direction of impact that a dummy or a rule is for. Criteria of another direction are meaningless for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Blow {
     /// From the front.
@@ -36,6 +36,8 @@ pub enum Blow {
     Side,
     /// From behind.
     Rear,
+    /// By a vehicle, on foot.
+    OnFoot,
 }
 
 use Dummy::{

@@ -17,6 +17,8 @@ pub enum Rule {
     UnR135,
     /// FMVSS 214, side.
     Fmvss214,
+    /// UN Regulation 127, pedestrians, headforms.
+    UnR127,
     /// Euro NCAP, full width frontal impact.
     EuroNcapFullWidth,
     /// Euro NCAP, frontal impact with a mobile progressive deformable barrier.
@@ -68,6 +70,7 @@ impl Rule {
             Self::UnR95 => "UN R95",
             Self::UnR135 => "UN R135",
             Self::Fmvss214 => "FMVSS 214",
+            Self::UnR127 => "UN R127 (headform)",
             Self::EuroNcapFullWidth => "Euro NCAP full width",
             Self::EuroNcapMpdb => "Euro NCAP MPDB",
             Self::EuroNcapSideBarrier => "Euro NCAP side barrier",
@@ -100,6 +103,9 @@ impl Rule {
             Self::UnR95 => "UN Regulation 95, paragraph 5.2.1, as of 2023",
             Self::UnR135 => "UN Regulation 135, paragraph 5.3.1, 2016",
             Self::Fmvss214 => "NHTSA, 49 CFR 571.214, S7.2.5, S7.2.6 and S9.2, as of 2007",
+            Self::UnR127 => {
+                "UN Regulation 127, paragraph 5.2, 2013: 1000 over two thirds of the area that headforms hit, 1700 elsewhere"
+            }
             Self::EuroNcapFullWidth | Self::EuroNcapMpdb | Self::EuroNcapSideBarrier | Self::EuroNcapSidePole => {
                 "Euro NCAP, Assessment Protocol, Adult Occupant Protection, version 9.3, 2023"
             }
@@ -139,6 +145,7 @@ impl Rule {
                 Some(Blow::Side)
             }
             Self::EuroNcapWhiplashLow | Self::EuroNcapWhiplashMedium | Self::EuroNcapWhiplashHigh => Some(Blow::Rear),
+            Self::UnR127 => Some(Blow::OnFoot),
             _ => None,
         }
     }

@@ -20,7 +20,7 @@ use Rule::{
     En1317CushionHeadOn, En1317CushionSide, En1317Edition1998, En1317Edition2010, En12767, En12767Slow,
     EuroNcapFullWidth, EuroNcapMpdb, EuroNcapSideBarrier, EuroNcapSidePole, EuroNcapWhiplashHigh, EuroNcapWhiplashLow,
     EuroNcapWhiplashMedium, Fmvss208, Fmvss214, IihsFrontal, Mash2016, Mash2016Supports, Nchrp350, Nchrp350Supports,
-    UnR94, UnR95, UnR135, UnR137,
+    UnR94, UnR95, UnR127, UnR135, UnR137,
 };
 
 const MALE: Option<Dummy> = Some(Dummy::HybridIii50M);
@@ -65,6 +65,8 @@ pub const LIMITS: &[Limit] = &[
     entry(UnR137, None, HeadThreeMsCumulative, 80.0 * G, Maximum, SecondarySource),
     entry(UnR137, MALE, ChestDeflection, 0.042, Maximum, SecondarySource),
     entry(UnR137, None, ViscousCriterion, 1.0, Maximum, SecondarySource),
+    entry(UnR127, None, Hic15, 1000.0, Preferred, CommonKnowledge),
+    entry(UnR127, None, Hic15, 1700.0, Maximum, CommonKnowledge),
     entry(UnR95, ES2, Hic36, 1000.0, Maximum, SecondarySource),
     entry(UnR95, ES2, RibDeflection, 0.042, Maximum, SecondarySource),
     entry(UnR95, ES2, RibViscousCriterion, 1.0, Maximum, SecondarySource),
