@@ -16,6 +16,7 @@ use occupant_files::mcap::{McapOptions, McapRecorder};
 use occupant_files::results::Results;
 use occupant_files::steps;
 use occupant_jobs::base::{Failure, Units};
+use occupant_jobs::judged::Impact;
 use occupant_jobs::report::{PageRecorder, Run, Source};
 use occupant_jobs::run::recording::{about, document};
 use serde::Serialize;
@@ -61,12 +62,13 @@ impl Recorder for Progress<'_> {
 /// All that is wrong with it; a name or pattern that fits no channel.
 pub fn run(case: &Case, plotted: &[String], told: &mut dyn FnMut(f64)) -> Result<Ran, Refused> {
     let Opened { loaded, model, mut warnings } = case.open()?;
-    let (mut summarizer, mut friction) = (Summarizer::new(), FrictionWatch::new());
+    let (mut summarizer, mut friction, mut impact) = (Summarizer::new(), FrictionWatch::new(), Impact::default());
     let mut gathered = PageRecorder::new(&model, plotted)?;
     let progress = Progress { told, span_s: [0.0, 1.0] };
-    let seen = (progress, ((&mut summarizer, &mut friction), &mut gathered));
+    let seen = (progress, (((&mut summarizer, &mut friction), &mut impact), &mut gathered));
     let outcome = attempt(&model, seen).map_err(Failure::broke_off)?;
     let mut summary = summarizer.summary(None).ok_or_else(|| Failure::plain("the run has no summary"))?;
+    impact.judge(&mut summary, &model);
     if outcome.status == Status::Completed {
         summary.caveats.extend(steps::caveats(&model, &friction, &summary));
     }

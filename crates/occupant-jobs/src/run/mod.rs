@@ -21,6 +21,7 @@ use occupant_core::run::simulate::{attempt, resume};
 
 use crate::base::Failure;
 use crate::files::scenario::Opened;
+use crate::judged::Impact;
 use estimate::head_m;
 use recording::{Recording, Written};
 use resume::{Resumption, WithEarlier};
@@ -62,12 +63,12 @@ pub fn run(
     channels: Vec<Channel>,
     watcher: impl Recorder,
 ) -> Result<Simulated, Failure> {
-    let (mut summarizer, mut friction) = (Summarizer::new(), FrictionWatch::new());
+    let (mut summarizer, mut friction, mut impact) = (Summarizer::new(), FrictionWatch::new(), Impact::default());
     let (mut histories, mut head) = (Series::new(channels), Vec::new());
     let watch_head = Watch(|sample: &Sample<'_>| head.push(head_m(sample)));
     let whole = WithEarlier {
         earlier: from.map(|f| f.earlier.clone()).unwrap_or_default(),
-        recorder: ((&mut summarizer, &mut friction), (&mut histories, (watch_head, &mut recording))),
+        recorder: (((&mut summarizer, &mut friction), &mut impact), (&mut histories, (watch_head, &mut recording))),
     };
     let recorders = (watcher, whole);
     let began = Instant::now();
@@ -79,6 +80,7 @@ pub fn run(
     let wall_time_s = began.elapsed().as_secs_f64();
     let completed = outcome.status == Status::Completed;
     let written = recording.close(completed)?;
-    let summary = summarizer.summary(Some(wall_time_s)).ok_or_else(|| Failure::plain("the run has no summary"))?;
+    let mut summary = summarizer.summary(Some(wall_time_s)).ok_or_else(|| Failure::plain("the run has no summary"))?;
+    impact.judge(&mut summary, &opened.model);
     Ok(Simulated { completed, summary, friction, histories, head, written })
 }
