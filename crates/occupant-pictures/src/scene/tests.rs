@@ -258,11 +258,10 @@ fn a_ghost_stands_where_it_is_and_says_when_it_has_ended() {
         let scene = |ghosts: &[Shown<'_>]| bare(&Scene::new(&run, ghosts, fitted, [192, 108], "").unwrap(), last);
         let alone = scene(&[]);
         assert_eq!(alone, scene(&[run.clone(), run.clone()]), "{camera:?}");
-        let pink = |all: &[[u8; 3]]| all.iter().filter(|[r, g, b]| *r > g.saturating_add(40) && b > g).count();
+        let pink = |all: &[[u8; 3]]| all.iter().filter(|[r, g, b]| *r > g.saturating_add(15) && b > g).count();
         assert_eq!(pink(&alone), 0, "{camera:?}");
         let seen = pink(&scene(std::slice::from_ref(&ghost)));
-        // measured: 56 at least
-        assert!(seen > 40, "{camera:?}: {seen}");
+        assert!(seen > 100, "{camera:?}: {seen}");
     }
     let fitted = Camera::Ground.fitted(&[&run], 1.78).unwrap();
     let scene = Scene::new(&run, &[ghost], fitted, [192, 108], "").unwrap();

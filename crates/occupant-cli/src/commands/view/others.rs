@@ -64,8 +64,13 @@ impl Others {
         for input in self.ghosts.iter().chain(&self.beside) {
             folder.map_or_else(|| refuse_input(output, input), |_| Ok(()))?;
         }
-        let pictures = self.beside.as_deref().filter(|path| path.is_dir());
-        let into = folder.or(output.parent()).map(|into| if into == Path::new("") { Path::new(".") } else { into });
+        let home = |path: &'_ Path| match (path.is_dir(), folder) {
+            (true, _) => Some(path.to_owned()),
+            (false, Some(_)) if ending(path) == "png" => path.parent().map(Path::to_owned),
+            _ => None,
+        };
+        let pictures = self.beside.as_deref().and_then(home).map(here);
+        let into = folder.or(output.parent()).map(Path::to_owned).map(here);
         match (pictures.and_then(|own| own.canonicalize().ok()), into.and_then(|own| own.canonicalize().ok())) {
             (Some(own), Some(into)) if own == into => Err(Failure::with_help(
                 format!("{} is the folder of the pictures of the test, and would get pictures of a run", own.display()),
@@ -102,6 +107,11 @@ impl Run {
         let caption = std::iter::once(first).chain(own.notes()).chain(own.doubt()).collect();
         Shown { model: &own.model, moments: &self.moments, clock_s: &self.clock_s, caption }
     }
+}
+
+/// A folder; of a name alone this one.
+fn here(folder: PathBuf) -> PathBuf {
+    if folder == Path::new("") { PathBuf::from(".") } else { folder }
 }
 
 fn title(results: &Results) -> &str {
