@@ -31,7 +31,7 @@ pub use lens::Lens;
 use lens::{Frustum, V3};
 use light::{Lamp, Shadows};
 use overlay::clock;
-use stage::{Cast, SHIRTS, Stage, TINTS, frame_pose, in_space};
+use stage::{Cast, Edge, SHIRTS, Stage, TINTS, frame_pose, in_space};
 
 /// Largest side of a picture, pixels.
 pub const MOST_PIXELS: usize = 8192;
@@ -159,7 +159,9 @@ impl<'a> Scene<'a> {
         if self.ghosts.is_empty() {
             return Vec::new();
         }
-        let known = self.cast.edges(&self.moments[at]);
+        let moment = &self.moments[at];
+        let mut known = self.cast.edges(moment);
+        known.extend(moment.sections.iter().map(|section| Edge::of_section(moment, section)));
         let of = |(ghost, tint): (&Ghost<'_>, Colour)| {
             let Some(moment) = ghost.moments.get(at) else { return Vec::new() };
             let own = ghost.cast.apparition(moment, origin, self.camera.hidden(ghost.cast.model), tint, &known);

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, Rotation3, Translation3, UnitQuaternion, Vecto
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::solid::{Shape, Solid};
 use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::forces::shown::Section;
 use occupant_core::model::Model;
 use occupant_core::model::setup::GROUND;
 
@@ -161,7 +162,7 @@ impl<'a> Cast<'a> {
         self.outsides(&mut stage, moment, &at);
         self.people(&mut stage, moment, origin, hidden);
         self.belts(&mut stage, moment, &at);
-        bags(&mut stage, moment, &at);
+        bags(&mut stage, moment.sections.iter(), &at);
         stage
     }
 
@@ -179,7 +180,8 @@ impl<'a> Cast<'a> {
         let at = |p: &Point3<f64>| -> V3 { (in_space(moment, p).coords - origin).cast() };
         self.people(&mut stage, moment, origin, hidden);
         self.belts(&mut stage, moment, &at);
-        bags(&mut stage, moment, &at);
+        let is_other = |section: &&Section| !known.iter().any(|own| Edge::of_section(moment, section).is_at(own));
+        bags(&mut stage, moment.sections.iter().filter(is_other), &at);
         stage.pieces.extend(self.marks(origin));
         for edge in self.edges(moment).iter().filter(|edge| !known.iter().any(|own| edge.is_at(own))) {
             let place = |p: &Point3<f64>| -> V3 { (p.coords - origin).cast() };
@@ -410,6 +412,11 @@ enum Of {
 }
 
 impl Edge {
+    /// The edge of a bag's section.
+    pub(super) fn of_section(moment: &Snapshot, section: &Section) -> Self {
+        Edge { corners_m: section.corners_m.iter().map(|p| in_space(moment, p)).collect(), of: Of::Inside }
+    }
+
     fn is_at(&self, other: &Edge) -> bool {
         let mut pairs = self.corners_m.iter().zip(&other.corners_m);
         self.corners_m.len() == other.corners_m.len() && pairs.all(|(a, b)| (a - b).norm() < SAME_M)
@@ -513,9 +520,9 @@ pub(super) fn frame_pose(moment: &Snapshot) -> Isometry3<f64> {
 }
 
 /// Bags as cloth round all that their sections reach.
-fn bags(stage: &mut Stage, moment: &Snapshot, at: &dyn Fn(&Point3<f64>) -> V3) {
+fn bags<'m>(stage: &mut Stage, sections: impl Iterator<Item = &'m Section>, at: &dyn Fn(&Point3<f64>) -> V3) {
     let mut cloths: Vec<(&str, Vec<V3>)> = Vec::new();
-    for section in &moment.sections {
+    for section in sections {
         let points = section.corners_m.iter().map(at).filter(|p| p.sum().is_finite());
         match cloths.iter_mut().find(|(name, _)| *name == section.name) {
             Some((_, known)) => known.extend(points),
