@@ -52,9 +52,9 @@ const NAME_M: f64 = 0.2;
 pub struct Shown<'a> {
     /// Its model.
     pub model: &'a Model,
-    /// What it shows on each picture, and the time that the picture tells, s: of another run if that sets the clock.
+    /// What it shows on each picture.
     pub moments: &'a [Snapshot],
-    /// See `moments`.
+    /// The time that each picture tells, s: that of another run if it sets the clock. Its own if empty.
     pub clock_s: &'a [f64],
     /// Where it comes from; the first line names it.
     pub caption: Vec<String>,

@@ -71,8 +71,9 @@ impl Others {
         };
         let pictures = self.beside.as_deref().and_then(home).map(here);
         let into = folder.or(output.parent()).map(Path::to_owned).map(here);
-        match (pictures.and_then(|own| own.canonicalize().ok()), into.and_then(|own| own.canonicalize().ok())) {
-            (Some(own), Some(into)) if own == into => Err(Failure::with_help(
+        let place = into.and_then(|own| own.canonicalize().ok());
+        match pictures {
+            Some(own) if place.is_some() && own.canonicalize().ok() == place => Err(Failure::with_help(
                 format!("{} is the folder of the pictures of the test, and would get pictures of a run", own.display()),
                 "write into another folder",
             )),
