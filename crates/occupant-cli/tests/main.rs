@@ -9,6 +9,7 @@ mod ensembles;
 mod everyday;
 mod examined;
 mod fit;
+mod ghosts;
 mod histories;
 mod laboratory;
 mod optimise;

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use clap::ValueEnum;
 use occupant_core::diagnosis::clearances;
@@ -11,6 +12,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::attempt;
 use rayon::prelude::*;
 
+mod others;
 mod solid;
 
 use super::flags::history::seconds;
@@ -24,6 +26,7 @@ use occupant_pictures::film::{Draw, FRAMES_A_SECOND, Film, Frame};
 use occupant_pictures::scene::sheet;
 use occupant_pictures::view::{Measured, Strip, View, draw, frames};
 use occupant_scenario::{Loaded, Size};
+use others::Run;
 use solid::Solid;
 
 /// Pixels of a PNG per drawing unit.
@@ -100,6 +103,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| with_word(&args.input.with_extension(usual), "-view"));
     let kind = if args.each.is_some() { Kind::Frames } else { Kind::of(&output)? };
     refuse_input(&output, &args.input)?;
+    args.solid.others.check(args.solid.is_asked(), &output, args.each.as_deref())?;
     if args.solid.is_asked() && matches!(kind, Kind::Picture(Format::Svg)) {
         return Err(Failure::ending(&output, ".png, .gif or .mp4, as a picture in three dimensions is made of pixels"));
     }
@@ -127,10 +131,13 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let moments = moments(&results, &outputs(&results, &wanted)?)?;
     let pace = pace(args, kind);
     if args.solid.is_asked() {
-        let one = args.solid.scene(&results, &moments, &origin(&results), &pace, kind)?;
-        return deliver_frames(args, kind, &output, moments.len(), &one);
+        let clock_s: Vec<f64> = moments.iter().map(|moment| moment.time_s).collect();
+        let others = args.solid.others.open(&clock_s)?;
+        let run = Run { results, moments, clock_s };
+        let one = args.solid.scene(&run, &others, &pace, kind)?;
+        return deliver_frames(args, kind, &output, run.moments.len(), &one);
     }
-    let origin = origin(&results) + &pace;
+    let origin = origin(&results, "") + &pace;
     let dimensions = if args.dimensions { lines(&results.loaded, &results.model, false) } else { Vec::new() };
     let strip = Strip { model: &results.model, moments, views: views(args, kind), origin, dimensions };
     if let Kind::Picture(format) = kind {
@@ -143,10 +150,16 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
 /// Writes a film, or frames, or a picture of pixels.
 fn deliver_frames(args: &Args, kind: Kind, output: &Path, count: usize, draw: Draw<'_>) -> Result<(), Failure> {
     let bar = bar(Some(count as u64), &counted("frames"), false);
+    let undrawn = OnceLock::new();
     let one = |frame| {
         let drawing = draw(frame);
         bar.inc(1);
-        drawing
+        drawing.inspect_err(|reason| drop(undrawn.set(reason.clone())))
+    };
+    // a frame that cannot be drawn is mended otherwise than a film that cannot be written
+    let failed = |reason: String, help: &str| match undrawn.get() {
+        Some(reason) => Failure::plain(reason),
+        None => Failure::with_help(reason, help),
     };
     let bytes = match kind {
         Kind::Picture(_) => {
@@ -155,7 +168,7 @@ fn deliver_frames(args: &Args, kind: Kind, output: &Path, count: usize, draw: Dr
         }
         Kind::Film(film) => {
             let help = "write a .gif; for a shorter film use --times or a smaller --slow-motion";
-            film.encode(count, &one).map_err(|e| Failure::with_help(e, help))?
+            film.encode(count, &one).map_err(|e| failed(e, help))?
         }
         Kind::Frames => return write_each(args, count, &one),
     };
@@ -364,19 +377,23 @@ fn outputs(results: &Results, wanted: &[f64]) -> Result<Vec<usize>, Failure> {
     let at: Vec<f64> = results.checkpoints.iter().map(|c| c.time_s).collect();
     let [first, last] = span_s(results);
     let half_interval = 0.5 * results.model.setup().time.output_s * (1.0 + 1e-9);
-    let nearest = |&time: &f64| {
+    let index = |&time: &f64| {
         if time < first - half_interval || time > last + half_interval {
             return Err(Failure::with_help(
                 format!("no output near {time} s: outputs cover {first} s to {last} s"),
                 "choose --times within the run",
             ));
         }
-        let after = at.partition_point(|t| *t < time).min(at.len() - 1);
-        let before = after.saturating_sub(1);
-        let nearer = (time - at[before]).abs() < (at[after] - time).abs();
-        Ok(if nearer { before } else { after })
+        Ok(nearest(&at, time))
     };
-    wanted.iter().map(nearest).collect()
+    wanted.iter().map(index).collect()
+}
+
+/// Index of the time nearest to another; of the first or the last beyond them.
+fn nearest(at: &[f64], time: f64) -> usize {
+    let after = at.partition_point(|t| *t < time).min(at.len() - 1);
+    let before = after.saturating_sub(1);
+    if (time - at[before]).abs() < (at[after] - time).abs() { before } else { after }
 }
 
 /// Every 40 ms, or every 80, 200, 400, … in a long run.
@@ -408,12 +425,12 @@ fn moments(results: &Results, outputs: &[usize]) -> Result<Vec<Snapshot>, Failur
     Ok(outputs.iter().filter_map(find).map(|s| s.1.clone()).collect())
 }
 
-/// Caption: file, its hash, program.
-fn origin(results: &Results) -> String {
+/// Caption: file, how it differs from others, its hash, program.
+fn origin(results: &Results, differs: &str) -> String {
     let name = file_name(&results.path);
     let program = results.run.get("program").map_or("-", String::as_str);
     let state = if results.is_complete() { "" } else { ", a run that did not complete" };
-    format!("{name} (SHA-256 {}…), run by {program}{state}", &results.sha256[..12])
+    format!("{name}{differs} (SHA-256 {}…), run by {program}{state}", &results.sha256[..12])
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Drawing data of one output, in vehicle axes.
 
-use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Vector3};
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
@@ -59,6 +59,22 @@ impl Snapshot {
             vehicle: *sample.vehicle,
             frames: frames(sample),
         }
+    }
+
+    /// The same moment as if its vehicle were where another one is: nothing moves within the vehicle's axes.
+    pub fn carried_by(&self, vehicle: &FrameMotion) -> Self {
+        let own = &self.vehicle;
+        let turn = vehicle.rotation * own.rotation.transpose();
+        let moved = |motion: &FrameMotion| FrameMotion {
+            origin_m: vehicle.origin_m + turn * (motion.origin_m - own.origin_m),
+            rotation: turn * motion.rotation,
+            ..*motion
+        };
+        // what stands still in space moves with it
+        let space = FrameMotion { origin_m: Vector3::zeros(), rotation: Matrix3::identity(), ..*own };
+        let still = (!self.frames.iter().any(|(known, _)| *known == Frame::Space)).then_some((Frame::Space, space));
+        let frames = self.frames.iter().copied().chain(still).map(|(frame, motion)| (frame, moved(&motion))).collect();
+        Snapshot { vehicle: *vehicle, frames, ..self.clone() }
     }
 
     /// The surfaces, then all faces of the solids, then scenery without relief, as polygons, m.

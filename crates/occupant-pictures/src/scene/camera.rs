@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use occupant_core::model::Model;
 
+use super::Shown;
 use super::lens::Lens;
 use super::stage::{frame_pose, in_space};
 use crate::body::{Snapshot, sphere_centre_m};
@@ -44,13 +45,12 @@ pub enum Carrier {
     Space,
 }
 
-/// A camera fitted to a run.
-pub(super) struct Fitted {
-    camera: Camera,
+/// A camera fitted to the runs that it looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct Fitted {
+    pub(super) camera: Camera,
     /// Of cameras that stand in vehicle or space axes.
     fixed: Lens,
-    /// Segment of the first head.
-    head: Option<usize>,
 }
 
 impl Camera {
@@ -65,21 +65,39 @@ impl Camera {
         }
     }
 
-    pub(super) fn fitted(self, model: &Model, moments: &[Snapshot]) -> Fitted {
-        let head = model.body().tree.segments().find(|s| model.body().tree.landmarks_at(*s).head == Some(*s));
-        let fixed = match self {
-            Camera::Ground => ground(model, moments),
-            Camera::Own(lens, _) => lens,
-            _ => riding(model, moments),
-        };
-        Fitted { camera: self, fixed, head: head.map(|segment| segment.index()) }
+    /// Whether it rides with the vehicle: other runs are then compared in axes of their own vehicles.
+    pub const fn rides(&self) -> bool {
+        matches!(self, Camera::Vehicle | Camera::Driver | Camera::Own(_, Carrier::Vehicle))
     }
+
+    /// The camera for pictures so many times as wide as high that show all of some runs.
+    ///
+    /// # Errors
+    /// A user's camera that looks nowhere.
+    pub fn fitted(self, runs: &[&Shown<'_>], aspect: f64) -> Result<Fitted, String> {
+        let fixed = match self {
+            Camera::Own(lens, _) if lens.looks() => lens,
+            Camera::Own(..) => {
+                let expected = "eye and target must be finite and apart, and the field of view 1 to 170 degrees";
+                return Err(format!("the camera looks nowhere: {expected}"));
+            }
+            Camera::Ground => ground(runs, aspect),
+            _ => riding(runs, aspect),
+        };
+        Ok(Fitted { camera: self, fixed })
+    }
+}
+
+/// Segment of the first head.
+fn head(model: &Model) -> Option<usize> {
+    let tree = &model.body().tree;
+    tree.segments().find(|s| tree.landmarks_at(*s).head == Some(*s)).map(|segment| segment.index())
 }
 
 impl Fitted {
     /// The segment that is not drawn: the head of whose eye is looked through.
-    pub(super) fn hidden(&self) -> Option<usize> {
-        if self.camera == Camera::Driver { self.head } else { None }
+    pub(super) fn hidden(&self, model: &Model) -> Option<usize> {
+        if self.camera == Camera::Driver { head(model) } else { None }
     }
 
     /// The lens at a moment, space axes.
@@ -94,21 +112,21 @@ impl Fitted {
             Camera::Ground | Camera::Own(_, Carrier::Space) => self.fixed,
             Camera::Vehicle | Camera::Own(_, Carrier::Vehicle) => carried(&self.fixed),
             Camera::Chase => chase(moment),
-            Camera::Driver => self.eye(model, moment).unwrap_or_else(|| carried(&self.fixed)),
+            Camera::Driver => eye(model, moment).unwrap_or_else(|| carried(&self.fixed)),
         }
     }
+}
 
-    fn eye(&self, model: &Model, moment: &Snapshot) -> Option<Lens> {
-        let (body, head) = (model.body(), self.head?);
-        let pose = frame_pose(moment) * moment.poses[head];
-        let skull = body.spheres.iter().find(|sphere| sphere.segment.index() == head);
-        let middle = skull.map_or_else(Vector3::zeros, |sphere| sphere_centre_m(body, sphere));
-        let reach = skull.map_or(0.09, |sphere| 0.9 * sphere.radius_m);
-        let eye_m = pose * Point3::from(middle + Vector3::x() * reach);
-        // a little downward, as drivers look at the road
-        let target_m = eye_m + pose * Vector3::new(1.0, 0.0, -0.12);
-        Some(Lens { eye_m, target_m, up: pose * Vector3::z(), height_rad: EYE_RAD })
-    }
+fn eye(model: &Model, moment: &Snapshot) -> Option<Lens> {
+    let (body, head) = (model.body(), head(model)?);
+    let pose = frame_pose(moment) * moment.poses[head];
+    let skull = body.spheres.iter().find(|sphere| sphere.segment.index() == head);
+    let middle = skull.map_or_else(Vector3::zeros, |sphere| sphere_centre_m(body, sphere));
+    let reach = skull.map_or(0.09, |sphere| 0.9 * sphere.radius_m);
+    let eye_m = pose * Point3::from(middle + Vector3::x() * reach);
+    // a little downward, as drivers look at the road
+    let target_m = eye_m + pose * Vector3::new(1.0, 0.0, -0.12);
+    Some(Lens { eye_m, target_m, up: pose * Vector3::z(), height_rad: EYE_RAD })
 }
 
 /// Level, behind the first occupant in the direction in which the vehicle points.
@@ -140,11 +158,20 @@ fn spheres<'m>(model: &'m Model, moment: &'m Snapshot) -> impl Iterator<Item = (
     model.body().spheres.iter().zip(&moment.spheres_m).map(|(sphere, at)| (*at, sphere.radius_m))
 }
 
-fn riding(model: &Model, moments: &[Snapshot]) -> Lens {
-    let first = moments.first().map_or_else(Point3::origin, first_middle);
-    let some = moments.iter().step_by(moments.len().div_ceil(MOMENTS).max(1));
-    let near = some.flat_map(|moment| spheres(model, moment)).filter(|(at, _)| (at - first).norm() < LET_GO_M);
-    fit(&near.collect::<Vec<_>>(), first, Vector3::new(1.0, 1.05, -0.42), -Vector3::z())
+fn riding(runs: &[&Shown<'_>], aspect: f64) -> Lens {
+    let first_of = |run: &Shown<'_>| run.moments.first().map_or_else(Point3::origin, first_middle);
+    let near = runs.iter().flat_map(|run| {
+        let first = first_of(run);
+        let all = some(run.moments).flat_map(|moment| spheres(run.model, moment));
+        all.filter(move |(at, _)| (at - first).norm() < LET_GO_M)
+    });
+    let middle = runs.first().map_or_else(Point3::origin, |run| first_of(run));
+    fit(&near.collect::<Vec<_>>(), middle, Vector3::new(1.0, 1.05, -0.42), -Vector3::z(), aspect)
+}
+
+/// Moments that a camera is fitted to.
+fn some(moments: &[Snapshot]) -> impl Iterator<Item = &Snapshot> {
+    moments.iter().step_by(moments.len().div_ceil(MOMENTS).max(1))
 }
 
 /// Of the first body alone: a second vehicle's people are far away.
@@ -155,23 +182,30 @@ fn first_middle(moment: &Snapshot) -> Point3<f64> {
     if near.is_empty() { first } else { Point3::from(sum / near.len() as f64) }
 }
 
-fn ground(model: &Model, moments: &[Snapshot]) -> Lens {
+fn ground(runs: &[&Shown<'_>], aspect: f64) -> Lens {
     let mut points = Vec::new();
-    for moment in moments.iter().step_by(moments.len().div_ceil(MOMENTS).max(1)) {
+    for (model, moment) in runs.iter().flat_map(|run| some(run.moments).map(|moment| (run.model, moment))) {
         points.extend(spheres(model, moment).map(|(at, radius_m)| (in_space(moment, &at), radius_m)));
         for own in model.setup().scenery.iter().filter(|own| own.name.ends_with("outside")) {
             let corners = own.polygons_m.iter().flat_map(|polygon| moment.placed_m(own.frame, polygon));
             points.extend(corners.map(|p| (in_space(moment, &p), 0.0)));
         }
     }
-    let ahead = moments.first().map_or_else(Vector3::x, heading);
+    let first = runs.first().and_then(|run| run.moments.first());
+    let ahead = first.map_or_else(Vector3::x, heading);
     let right = ahead.cross(&Vector3::z());
-    let middle = moments.first().map_or_else(Point3::origin, |moment| in_space(moment, &middle(moment)));
-    fit(&points, middle, right * 1.0 + ahead * 0.35 + Vector3::z() * 0.55, Vector3::z())
+    let middle = first.map_or_else(Point3::origin, |moment| in_space(moment, &middle(moment)));
+    fit(&points, middle, right * 1.0 + ahead * 0.35 + Vector3::z() * 0.55, Vector3::z(), aspect)
 }
 
 /// A lens in a direction from the middle of points, as near as all of them are in the picture's middle.
-fn fit(points: &[(Point3<f64>, f64)], otherwise: Point3<f64>, from: Vector3<f64>, up: Vector3<f64>) -> Lens {
+fn fit(
+    points: &[(Point3<f64>, f64)],
+    otherwise: Point3<f64>,
+    from: Vector3<f64>,
+    up: Vector3<f64>,
+    aspect: f64,
+) -> Lens {
     let sound: Vec<_> = points.iter().filter(|(at, _)| at.coords.sum().is_finite()).collect();
     let least = |i: usize| sound.iter().map(|(at, r)| at[i] - r).fold(f64::INFINITY, f64::min);
     let most = |i: usize| sound.iter().map(|(at, r)| at[i] + r).fold(f64::NEG_INFINITY, f64::max);
@@ -184,8 +218,8 @@ fn fit(points: &[(Point3<f64>, f64)], otherwise: Point3<f64>, from: Vector3<f64>
     let slope = WITHIN * slope.0 / slope.1;
     let far = |(at, radius_m): &&(Point3<f64>, f64)| {
         let off = at - target_m;
-        // pictures are at least half as wide again as high
-        let aside = ((right.dot(&off).abs() + radius_m) / 1.5).max(above.dot(&off).abs() + radius_m);
+        // half as wide again as high is enough
+        let aside = ((right.dot(&off).abs() + radius_m) / aspect.min(1.5)).max(above.dot(&off).abs() + radius_m);
         aside / slope + back.dot(&off)
     };
     let away = sound.iter().map(far).fold(1.2, f64::max);

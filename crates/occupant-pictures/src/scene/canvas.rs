@@ -15,6 +15,12 @@ const SAMPLES: [[f32; 2]; 4] = [[-0.125, -0.375], [0.375, -0.125], [0.125, 0.375
 /// Sample without a triangle.
 const NOTHING: u32 = u32::MAX;
 
+/// Largest number of ghosts, and how much of what is behind them they cover.
+pub(super) const MOST_GHOSTS: usize = 3;
+const OPACITY: f32 = 0.5;
+/// How much nearer to the eye a ghost must be to be seen, m: bodies in the same place would be speckled.
+const BEFORE_M: f32 = 3e-3;
+
 /// A colour, linear, 0 to 1.
 pub(super) type Colour = [f32; 3];
 
@@ -93,29 +99,65 @@ enum Look {
     Line([[f32; 2]; 2], [f32; 2], f32),
 }
 
-/// The picture, row by row, red, green, blue, 0 to 255.
-pub(super) fn paint(lens: &Frustum, pieces: &[Piece], veils: &[Veil], light: &dyn Light) -> Vec<[u8; 3]> {
+/// Things laid on the picture: their triangles, and which of them each band of rows has.
+struct Laid<'p> {
+    pieces: &'p [Piece],
+    flat: Vec<Flat>,
+    bins: Vec<Vec<u32>>,
+}
+
+impl<'p> Laid<'p> {
+    fn of(lens: &Frustum, pieces: &'p [Piece]) -> Self {
+        let parts: Vec<Vec<Flat>> =
+            pieces.par_iter().enumerate().map(|(i, piece)| flattened(lens, piece, i as u32)).collect();
+        let flat: Vec<Flat> = parts.into_iter().flatten().collect();
+        let bands = lens.size[1].div_ceil(ROWS);
+        let mut bins: Vec<Vec<u32>> = vec![Vec::new(); bands];
+        for (i, triangle) in flat.iter().enumerate() {
+            let [low, high] = span(triangle.at.map(|p| p[1]));
+            let last = (high.max(0.0) as usize / ROWS).min(bands.saturating_sub(1));
+            for bin in bins.iter_mut().take(last + 1).skip(low.max(0.0) as usize / ROWS) {
+                bin.push(i as u32);
+            }
+        }
+        Laid { pieces, flat, bins }
+    }
+
+    /// The samples of a band of so many rows.
+    fn band(&self, width: usize, band: usize, rows: usize) -> Band {
+        let mut own = Band::new(width, band * ROWS, rows);
+        self.bins[band].iter().for_each(|i| own.cover(&self.flat[*i as usize], *i));
+        own
+    }
+}
+
+/// The picture, row by row, red, green, blue, 0 to 255: pieces, over them translucent ghosts, of each what is nearest, and
+/// veils before and behind both.
+pub(super) fn paint(
+    lens: &Frustum,
+    pieces: &[Piece],
+    ghosts: &[Vec<Piece>],
+    veils: &[Veil],
+    light: &dyn Light,
+) -> Vec<[u8; 3]> {
     let [width, height] = lens.size;
-    let parts: Vec<Vec<Flat>> =
-        pieces.par_iter().enumerate().map(|(i, piece)| flattened(lens, piece, i as u32)).collect();
-    let flat: Vec<Flat> = parts.into_iter().flatten().collect();
+    let laid_pieces = Laid::of(lens, pieces);
+    let ghosts: Vec<Laid<'_>> = ghosts.iter().take(MOST_GHOSTS).map(|own| Laid::of(lens, own)).collect();
     let mut over: Vec<FlatVeil> = veils.iter().filter_map(|veil| laid(lens, veil)).collect();
     over.sort_by(|a, b| b.far.total_cmp(&a.far));
-    let bands = height.div_ceil(ROWS);
-    let mut bins: Vec<Vec<u32>> = vec![Vec::new(); bands];
-    for (i, triangle) in flat.iter().enumerate() {
-        let [low, high] = span(triangle.at.map(|p| p[1]));
-        let last = (high.max(0.0) as usize / ROWS).min(bands.saturating_sub(1));
-        for bin in bins.iter_mut().take(last + 1).skip(low.max(0.0) as usize / ROWS) {
-            bin.push(i as u32);
-        }
-    }
     let mut pixels = vec![[0; 3]; width * height];
-    pixels.par_chunks_mut(width * ROWS).zip(&bins).enumerate().for_each(|(band, (rows, bin))| {
-        let mut own = Band::new(width, band * ROWS, rows.len() / width);
-        bin.iter().for_each(|i| own.cover(&flat[*i as usize], *i));
-        let mut colours = own.resolve(lens, pieces, &flat, light);
-        over.iter().for_each(|veil| own.blend(&mut colours, veil));
+    pixels.par_chunks_mut(width * ROWS).enumerate().for_each(|(band, rows)| {
+        let count = rows.len() / width;
+        let mut own = laid_pieces.band(width, band, count);
+        let mut colours = own.resolve(lens, &laid_pieces, light);
+        if ghosts.iter().any(|ghost| !ghost.bins[band].is_empty()) {
+            let bands: Vec<Band> = ghosts.iter().map(|ghost| ghost.band(width, band, count)).collect();
+            let nearest = own.nearest(&bands);
+            over.iter().for_each(|veil| own.blend(&mut colours, veil, Some(&nearest)));
+            own.haunt(&mut colours, lens, &ghosts, &bands, light);
+            own.near = nearest;
+        }
+        over.iter().for_each(|veil| own.blend(&mut colours, veil, None));
         for (pixel, colour) in rows.iter_mut().zip(&colours) {
             *pixel = colour.map(|c| (c.clamp(0.0, 1.0).sqrt() * 255.0 + 0.5) as u8);
         }
@@ -181,33 +223,74 @@ impl Band {
     }
 
     /// Colour of each pixel: once where all samples show one thing, else sample by sample.
-    fn resolve(&self, lens: &Frustum, pieces: &[Piece], flat: &[Flat], light: &dyn Light) -> Vec<Colour> {
-        let of = |id: u32, x: f32, y: f32| match flat.get(id as usize) {
-            Some(triangle) => light.colour(&spot(lens, pieces, triangle, [x, y])),
-            None => light.sky(&lens.ray(x, y)),
-        };
-        let piece = |id: u32| flat.get(id as usize).map_or(NOTHING, |triangle| triangle.piece);
-        let pixel = |(i, what): (usize, &[u32; 4])| {
-            let (x, y) = ((i % self.width) as f32 + 0.5, (self.top + i / self.width) as f32 + 0.5);
-            let first = piece(what[0]);
-            if what.iter().all(|id| piece(*id) == first) {
-                return of(what[0], x, y);
-            }
-            let mut sum = [0.0; 3];
-            for (id, [right, down]) in what.iter().zip(SAMPLES) {
-                let own = of(*id, x + right, y + down);
-                (0..3).for_each(|c| sum[c] += 0.25 * own[c]);
-            }
-            sum
-        };
-        self.what.iter().enumerate().map(pixel).collect()
+    fn resolve(&self, lens: &Frustum, laid: &Laid<'_>, light: &dyn Light) -> Vec<Colour> {
+        (0..self.what.len()).map(|pixel| self.shade(pixel, [true; 4], lens, laid, light)).collect()
     }
 
-    fn blend(&self, colours: &mut [Colour], veil: &FlatVeil) {
+    /// Mean colour of some samples of a pixel.
+    fn shade(&self, pixel: usize, seen: [bool; 4], lens: &Frustum, laid: &Laid<'_>, light: &dyn Light) -> Colour {
+        let of = |id: u32, x: f32, y: f32| match laid.flat.get(id as usize) {
+            Some(triangle) => light.colour(&spot(lens, laid.pieces, triangle, [x, y])),
+            None => light.sky(&lens.ray(x, y)),
+        };
+        let piece = |id: u32| laid.flat.get(id as usize).map_or(NOTHING, |triangle| triangle.piece);
+        let (x, y) = ((pixel % self.width) as f32 + 0.5, (self.top + pixel / self.width) as f32 + 0.5);
+        let what = &self.what[pixel];
+        let first = piece(what[0]);
+        if seen == [true; 4] && what.iter().all(|id| piece(*id) == first) {
+            return of(what[0], x, y);
+        }
+        let share = 1.0 / seen.iter().filter(|own| **own).count().max(1) as f32;
+        let mut sum = [0.0; 3];
+        for ((id, [right, down]), _) in what.iter().zip(SAMPLES).zip(seen).filter(|(_, seen)| *seen) {
+            let own = of(*id, x + right, y + down);
+            (0..3).for_each(|c| sum[c] += share * own[c]);
+        }
+        sum
+    }
+
+    /// 1/distance of what is nearest among this band and others.
+    fn nearest(&self, others: &[Band]) -> Vec<[f32; 4]> {
+        let mut near = self.near.clone();
+        for (all, own) in others.iter().flat_map(|other| other.near.iter().enumerate()) {
+            (0..4).for_each(|sample| near[all][sample] = near[all][sample].max(own[sample]));
+        }
+        near
+    }
+
+    /// Blends ghosts over what is behind them, the farthest first.
+    fn haunt(&self, colours: &mut [Colour], lens: &Frustum, ghosts: &[Laid<'_>], bands: &[Band], light: &dyn Light) {
+        for (pixel, colour) in colours.iter_mut().enumerate() {
+            let mut order: [(f32, usize); MOST_GHOSTS] = std::array::from_fn(|ghost| {
+                let near = bands.get(ghost).map_or([0.0; 4], |band| band.near[pixel]);
+                (near.into_iter().fold(0.0, f32::max), ghost)
+            });
+            order.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for (_, ghost) in order.into_iter().filter(|(near, _)| *near > 0.0) {
+                let seen = [0, 1, 2, 3].map(|s| {
+                    let near = self.near[pixel][s];
+                    bands[ghost].near[pixel][s] > near + BEFORE_M * near * near
+                });
+                let share = OPACITY * 0.25 * seen.iter().filter(|own| **own).count() as f32;
+                if share > 0.0 {
+                    let own = bands[ghost].shade(pixel, seen, lens, &ghosts[ghost], light);
+                    (0..3).for_each(|c| colour[c] += share * (own[c] - colour[c]));
+                }
+            }
+        }
+    }
+
+    /// Blends a veil over the samples that it is before; with `upto`, of those alone that it is not before there.
+    fn blend(&self, colours: &mut [Colour], veil: &FlatVeil, upto: Option<&Vec<[f32; 4]>>) {
         let (top, bottom) = (self.top as f32, (self.top + self.rows) as f32);
         if veil.rows[1] < top || veil.rows[0] > bottom {
             return;
         }
+        let free = |pixel: usize, own: [f32; 4]| {
+            let is_free =
+                |s: &usize| own[*s] > self.near[pixel][*s] && upto.is_none_or(|upto| own[*s] <= upto[pixel][*s]);
+            (0..4).filter(is_free).count()
+        };
         let mut mix = |pixel: usize, share: f32| {
             let colour = &mut colours[pixel];
             (0..3).for_each(|c| colour[c] += share * veil.opacity * (veil.colour[c] - colour[c]));
@@ -216,18 +299,25 @@ impl Band {
             Look::Triangles(all) => {
                 for flat in all {
                     self.each(flat, |pixel, samples| {
-                        let free = samples.iter().zip(&self.near[pixel]).filter(|(own, near)| own > near).count();
+                        let free = free(pixel, samples);
                         if free > 0 {
                             mix(pixel, 0.25 * free as f32);
                         }
                     });
                 }
             }
-            Look::Line(ends, inverse, pixels) => self.stroke(*ends, *inverse, *pixels, mix),
+            Look::Line(ends, inverse, pixels) => self.stroke(*ends, *inverse, *pixels, free, mix),
         }
     }
 
-    fn stroke(&self, [a, b]: [[f32; 2]; 2], inverse: [f32; 2], pixels: f32, mut mix: impl FnMut(usize, f32)) {
+    fn stroke(
+        &self,
+        [a, b]: [[f32; 2]; 2],
+        inverse: [f32; 2],
+        pixels: f32,
+        free: impl Fn(usize, [f32; 4]) -> usize,
+        mut mix: impl FnMut(usize, f32),
+    ) {
         let half = 0.5 * pixels.max(1.0);
         let faint = pixels.min(1.0);
         let along = [b[0] - a[0], b[1] - a[1]];
@@ -257,8 +347,7 @@ impl Band {
                 if covered > 0.0 {
                     let pixel = (y - self.top) * self.width + x;
                     let own = (inverse[0] + share * (inverse[1] - inverse[0])) * 1.002;
-                    let free = self.near[pixel].iter().filter(|near| own > **near).count();
-                    mix(pixel, covered * 0.25 * free as f32);
+                    mix(pixel, covered * 0.25 * free(pixel, [own; 4]) as f32);
                 }
             }
         }

@@ -2,6 +2,7 @@
 //!
 //! A software renderer of our own paints them (`canvas`): it needs no graphics card, and gives the same bits everywhere.
 
+mod beside;
 mod camera;
 mod canvas;
 mod lens;
@@ -13,6 +14,8 @@ mod stage;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
+
 use nalgebra::{Point3, Vector3};
 use occupant_core::model::Model;
 use resvg::tiny_skia::{IntSize, Pixmap};
@@ -20,15 +23,20 @@ use resvg::tiny_skia::{IntSize, Pixmap};
 use crate::body::{Snapshot, sphere_centre_m};
 use crate::film::Frame;
 use crate::format;
-pub use camera::{Camera, Carrier};
-use camera::{Fitted, middle};
+pub use beside::{Photograph, abreast, photograph};
+use camera::middle;
+pub use camera::{Camera, Carrier, Fitted};
+use canvas::{Colour, Piece};
 pub use lens::Lens;
 use lens::{Frustum, V3};
 use light::{Lamp, Shadows};
-use stage::{Cast, frame_pose, in_space};
+use overlay::clock;
+use stage::{Cast, Edge, SHIRTS, Stage, TINTS, frame_pose, in_space};
 
 /// Largest side of a picture, pixels.
 pub const MOST_PIXELS: usize = 8192;
+/// Largest number of other runs in a picture.
+pub const MOST_GHOSTS: usize = canvas::MOST_GHOSTS;
 /// Largest number of pixels of a sheet.
 const MOST_IN_ALL: usize = 200_000_000;
 /// Radius within which things throw shadows, at least, and share of the lamp that a seen-through car takes.
@@ -40,9 +48,31 @@ const SIGHTS: usize = 8;
 const NAME_M: f64 = 0.2;
 
 /// A run to be pictured.
+#[derive(Clone, Debug)]
+pub struct Shown<'a> {
+    /// Its model.
+    pub model: &'a Model,
+    /// What it shows on each picture.
+    pub moments: &'a [Snapshot],
+    /// The time that each picture tells, s: that of another run if it sets the clock. Its own if empty.
+    pub clock_s: &'a [f64],
+    /// Where it comes from; the first line names it.
+    pub caption: Vec<String>,
+}
+
+/// Another run within the pictures of a run, translucent.
+struct Ghost<'a> {
+    cast: Cast<'a>,
+    moments: Cow<'a, [Snapshot]>,
+    caption: Vec<String>,
+}
+
+/// Pictures of a run, with others as ghosts.
 pub struct Scene<'a> {
     cast: Cast<'a>,
     moments: &'a [Snapshot],
+    clock_s: &'a [f64],
+    ghosts: Vec<Ghost<'a>>,
     camera: Fitted,
     size: [usize; 2],
     about: String,
@@ -50,41 +80,43 @@ pub struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    /// Pictures of `size` pixels, width and height, from a camera; `about` says how they are shown, and the caption where
-    /// they come from.
+    /// Pictures of `size` pixels, width and height, from a camera; `about` says how they are shown. Ghosts have as many
+    /// moments as the run. A camera that rides with the vehicle shows them in axes of their own vehicles, put where that of
+    /// the run is; any other where they are in space.
     ///
     /// # Errors
-    /// A side without pixels, or with more than [`MOST_PIXELS`]; a user's camera that looks nowhere.
+    /// A side without pixels, or with more than [`MOST_PIXELS`]; more than [`MOST_GHOSTS`] ghosts.
     pub fn new(
-        model: &'a Model,
-        moments: &'a [Snapshot],
-        camera: Camera,
+        run: &Shown<'a>,
+        ghosts: &[Shown<'a>],
+        camera: Fitted,
         size: [usize; 2],
         about: &str,
-        caption: Vec<String>,
     ) -> Result<Self, String> {
         if size.iter().any(|side| !(1..=MOST_PIXELS).contains(side)) {
             let [width, height] = size;
             return Err(format!("a picture of {width} × {height} pixels; each side can have 1 to {MOST_PIXELS}"));
         }
-        if let Camera::Own(lens, _) = camera
-            && !lens.looks()
-        {
-            return Err(
-                "the camera looks nowhere: eye and target must be finite and apart, and the field of view 1 to \
-                        170 degrees"
-                    .to_owned(),
-            );
+        if ghosts.len() > MOST_GHOSTS {
+            return Err(format!(
+                "{} runs in the picture of another; at most {MOST_GHOSTS} can be told apart",
+                ghosts.len()
+            ));
         }
-        let mut cast = Cast::of(model, moments.first());
-        let camera_name = camera.name();
-        let camera = camera.fitted(model, moments);
-        let some = moments.iter().step_by(moments.len().div_ceil(SIGHTS).max(1));
-        cast.look_from(&some.map(|moment| (camera.lens(model, moment).eye_m, moment)).collect::<Vec<_>>());
+        let mut cast = Cast::of(run.model, run.moments.first());
+        let some = run.moments.iter().step_by(run.moments.len().div_ceil(SIGHTS).max(1));
+        cast.look_from(&some.map(|moment| (camera.lens(run.model, moment).eye_m, moment)).collect::<Vec<_>>());
         let grid = if cast.has_ground() { "grid 1 m" } else { "grid 1 m, drawn below the car: the run has no ground" };
-        let about =
-            [camera_name, grid, about].iter().filter(|t| !t.is_empty()).copied().collect::<Vec<_>>().join(" · ");
-        Ok(Scene { cast, moments, camera, size, about, caption })
+        let ghosts: Vec<_> = ghosts.iter().map(|own| Ghost::of(own, run.moments, &camera)).collect();
+        let placed = match (ghosts.is_empty(), camera.camera.rides()) {
+            (true, _) => "",
+            (false, true) => "ghosts in axes of their own vehicles",
+            (false, false) => "ghosts where they are in space",
+        };
+        let about = [camera.camera.name(), placed, grid, about];
+        let about = about.into_iter().filter(|t| !t.is_empty()).collect::<Vec<_>>().join(" · ");
+        let (moments, clock_s, caption) = (run.moments, run.clock_s, run.caption.clone());
+        Ok(Scene { cast, moments, clock_s, ghosts, camera, size, about, caption })
     }
 
     /// The picture of a moment.
@@ -93,18 +125,21 @@ impl<'a> Scene<'a> {
     /// A moment that does not exist; words that cannot be drawn.
     pub fn frame(&self, moment: usize) -> Result<Frame, String> {
         let count = self.moments.len();
-        let moment = self.moments.get(moment).ok_or_else(|| format!("no moment {moment}: there are {count}"))?;
+        let at = moment;
+        let moment = self.moments.get(at).ok_or_else(|| format!("no moment {at}: there are {count}"))?;
         let lens = self.camera.lens(self.cast.model, moment);
         let origin = in_space(moment, &middle(moment)).coords;
         let origin = if origin.sum().is_finite() { origin } else { Vector3::zeros() };
         let frustum = lens.before(&origin, self.size);
-        let mut pixmap = pixmap(self.size, &self.bare(moment, &lens, &frustum, &origin))?;
-        format::overlay(&self.words(moment, &lens, &frustum, &origin), &mut pixmap)?;
+        let mut pixmap = pixmap(self.size, &self.bare(at, &lens, &frustum, &origin))?;
+        format::overlay(&self.words(at, &lens, &frustum, &origin), &mut pixmap)?;
         Ok(Frame::Pixels(pixmap))
     }
 
-    fn bare(&self, moment: &Snapshot, lens: &Lens, frustum: &Frustum, origin: &Vector3<f64>) -> Vec<[u8; 3]> {
-        let stage = self.cast.stage(moment, origin, &lens.eye_m, self.camera.hidden());
+    fn bare(&self, at: usize, lens: &Lens, frustum: &Frustum, origin: &Vector3<f64>) -> Vec<[u8; 3]> {
+        let moment = &self.moments[at];
+        let mut stage = self.cast.stage(moment, origin, &lens.eye_m, self.camera.hidden(self.cast.model));
+        let ghosts = self.apparitions(at, origin, &mut stage);
         let towards = V3::new(0.28, -0.34, 0.90).normalize();
         let thrown = || stage.shades.iter().map(|i| &stage.pieces[*i]);
         let solid = ball(thrown());
@@ -116,10 +151,28 @@ impl<'a> Scene<'a> {
         let grid = [0, 1].map(|i| (origin[i].rem_euclid(10.0)) as f32);
         let lamp =
             Lamp { towards, eye: frustum.eye, away_m: (lens.target_m - lens.eye_m).norm() as f32, grid, shadows };
-        canvas::paint(frustum, &stage.pieces, &stage.veils, &lamp)
+        canvas::paint(frustum, &stage.pieces, &ghosts, &stage.veils, &lamp)
     }
 
-    fn words(&self, moment: &Snapshot, lens: &Lens, frustum: &Frustum, origin: &Vector3<f64>) -> String {
+    /// The things of each ghost; what is seen through already joins that of the run.
+    fn apparitions(&self, at: usize, origin: &Vector3<f64>, stage: &mut Stage) -> Vec<Vec<Piece>> {
+        if self.ghosts.is_empty() {
+            return Vec::new();
+        }
+        let moment = &self.moments[at];
+        let mut known = self.cast.edges(moment);
+        known.extend(moment.sections.iter().map(|section| Edge::of_section(moment, section)));
+        let of = |(ghost, tint): (&Ghost<'_>, Colour)| {
+            let Some(moment) = ghost.moments.get(at) else { return Vec::new() };
+            let own = ghost.cast.apparition(moment, origin, self.camera.hidden(ghost.cast.model), tint, &known);
+            stage.veils.extend(own.veils);
+            own.pieces
+        };
+        self.ghosts.iter().zip(TINTS).map(of).collect()
+    }
+
+    fn words(&self, at: usize, lens: &Lens, frustum: &Frustum, origin: &Vector3<f64>) -> String {
+        let moment = &self.moments[at];
         let target: V3 = (lens.target_m.coords - origin).cast();
         let away = frustum.seen(&target).z;
         let per_m = (away > lens::NEAR_M).then(|| f64::from(frustum.focal / away));
@@ -129,12 +182,37 @@ impl<'a> Scene<'a> {
             size: self.size,
             title: &self.cast.model.setup().title,
             about: &self.about,
-            time_s: moment.time_s,
+            time_s: self.time_s(at),
             speeds: &speeds,
             names: &self.names(moment, frustum, origin),
             per_m,
-            caption: &self.caption,
+            caption: &self.captions(at),
         })
+        .svg
+    }
+
+    /// Where everything comes from, each run with its colour if there are several; of a ghost also whether it has ended.
+    fn captions(&self, at: usize) -> Vec<(Option<Colour>, String)> {
+        let coloured = |lines: &[String], colour: Option<Colour>| -> Vec<(Option<Colour>, String)> {
+            lines.iter().enumerate().map(|(i, line)| (colour.filter(|_| i == 0), line.clone())).collect()
+        };
+        let of = |caption: &[String], colour, moments: &[Snapshot], model| {
+            let mut own = coloured(caption, colour);
+            let beyond = moments.get(at).and_then(|own| beyond(self.time_s(at), own, model));
+            own.iter_mut().take(1).for_each(|(_, line)| *line += beyond.as_deref().unwrap_or_default());
+            own
+        };
+        let first = (!self.ghosts.is_empty()).then_some(SHIRTS[0]);
+        let mut all = of(&self.caption, first, self.moments, self.cast.model);
+        for (ghost, tint) in self.ghosts.iter().zip(TINTS) {
+            all.extend(of(&ghost.caption, Some(tint), &ghost.moments, ghost.cast.model));
+        }
+        all
+    }
+
+    /// The time that a picture tells, s.
+    fn time_s(&self, at: usize) -> f64 {
+        self.clock_s.get(at).copied().unwrap_or(self.moments[at].time_s)
     }
 
     /// Names of several people, above their heads.
@@ -158,8 +236,25 @@ impl<'a> Scene<'a> {
     }
 }
 
+impl<'a> Ghost<'a> {
+    fn of(run: &Shown<'a>, pictured: &[Snapshot], camera: &Fitted) -> Self {
+        let carried = || run.moments.iter().zip(pictured).map(|(own, at)| own.carried_by(&at.vehicle)).collect();
+        let moments = if camera.camera.rides() { Cow::Owned(carried()) } else { Cow::Borrowed(run.moments) };
+        Ghost { cast: Cast::of(run.model, None), moments, caption: run.caption.clone() }
+    }
+}
+
+/// Says that a run has no output near the time of a picture.
+fn beyond(clock_s: f64, own: &Snapshot, model: &Model) -> Option<String> {
+    let (time_s, near_s) = (own.time_s, model.setup().time.output_s);
+    if clock_s > time_s + near_s {
+        return Some(format!(", ended at {} and stays as it was then", clock(time_s)));
+    }
+    (clock_s < time_s - near_s).then(|| format!(", begins at {}", clock(time_s)))
+}
+
 /// Middle and radius of what throws shadows.
-fn ball<'p>(pieces: impl Iterator<Item = &'p canvas::Piece>) -> (V3, f32) {
+fn ball<'p>(pieces: impl Iterator<Item = &'p Piece>) -> (V3, f32) {
     let mut ends = [V3::repeat(f32::MAX), V3::repeat(f32::MIN)];
     for corner in pieces.flat_map(|piece| &piece.corners).filter(|corner| corner.place.sum().is_finite()) {
         ends = [ends[0].inf(&corner.place), ends[1].sup(&corner.place)];

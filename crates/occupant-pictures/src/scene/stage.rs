@@ -4,10 +4,11 @@ use nalgebra::{Isometry3, Point3, Rotation3, Translation3, UnitQuaternion, Vecto
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::solid::{Shape, Solid};
 use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::forces::shown::Section;
 use occupant_core::model::Model;
 use occupant_core::model::setup::GROUND;
 
-use super::canvas::{Colour, Paint, Piece, Veil};
+use super::canvas::{Colour, MOST_GHOSTS, Paint, Piece, Veil};
 use super::lens::V3;
 use super::light::linear;
 use super::shapes::{circle, cloth, farther, flat, placed, plane, polygons, ribbon, skull, wheel};
@@ -37,6 +38,12 @@ pub(super) const SHIRTS: [Colour; 6] = [
     [0.75, 0.62, 0.20],
     [0.25, 0.60, 0.62],
 ];
+/// Tints of other runs in their order, told apart by people who confuse red and green too.
+pub(super) const TINTS: [Colour; MOST_GHOSTS] = [[0.85, 0.20, 0.55], [0.95, 0.68, 0.10], [0.10, 0.62, 0.50]];
+/// Share of the tint in the colour of a ghost's thing.
+const TINTED: f32 = 0.75;
+/// Distance within which corners of two runs' things are the same, m.
+const SAME_M: f64 = 1e-3;
 const WEBBING: Colour = [0.78, 0.16, 0.12];
 const SLACK: Colour = [0.45, 0.45, 0.47];
 const SEAT: Colour = [0.50, 0.52, 0.56];
@@ -155,8 +162,65 @@ impl<'a> Cast<'a> {
         self.outsides(&mut stage, moment, &at);
         self.people(&mut stage, moment, origin, hidden);
         self.belts(&mut stage, moment, &at);
-        bags(&mut stage, moment, &at);
+        bags(&mut stage, moment.sections.iter(), &at);
         stage
+    }
+
+    /// People, belts, bags, wheels and tyre marks of another run in one tint, and the edges of what is not where the
+    /// pictured run has the same.
+    pub(super) fn apparition(
+        &self,
+        moment: &Snapshot,
+        origin: &Vector3<f64>,
+        hidden: Option<usize>,
+        tint: Colour,
+        known: &[Edge],
+    ) -> Stage {
+        let mut stage = Stage::default();
+        let at = |p: &Point3<f64>| -> V3 { (in_space(moment, p).coords - origin).cast() };
+        self.people(&mut stage, moment, origin, hidden);
+        self.belts(&mut stage, moment, &at);
+        let is_other = |section: &&Section| !known.iter().any(|own| Edge::of_section(moment, section).is_at(own));
+        bags(&mut stage, moment.sections.iter().filter(is_other), &at);
+        stage.pieces.extend(self.marks(origin));
+        for edge in self.edges(moment).iter().filter(|edge| !known.iter().any(|own| edge.is_at(own))) {
+            let place = |p: &Point3<f64>| -> V3 { (p.coords - origin).cast() };
+            let corners: Vec<V3> = edge.corners_m.iter().map(place).collect();
+            match edge.of {
+                Of::Wheel => stage.pieces.push(wheel(&edge.corners_m, &place)),
+                Of::Outside => {
+                    stage.outline(&corners, linear(OUTSIDE), 0.75, 1.6);
+                    stage.veils.push(Veil::Sheet { corners, colour: linear(OUTSIDE), opacity: 0.10 });
+                }
+                Of::Inside => stage.outline(&corners, linear(EDGE), 0.35, 1.3),
+            }
+        }
+        stage.tint(linear(tint));
+        stage
+    }
+
+    /// What has edges at a moment, in space: surfaces, solids, outsides and barriers.
+    pub(super) fn edges(&self, moment: &Snapshot) -> Vec<Edge> {
+        let setup = self.model.setup();
+        let is_part = |face: &&FlatFace| !self.is_ground(face) && !matches!(face.outline, Outline::Unbounded { .. });
+        let faces = self.model.faces().iter().filter(is_part).map(|face| (moment.corners_m(face), Of::Inside));
+        let solids = setup.solids.iter().flat_map(|solid| sides(moment, solid)).map(|side| (side, Of::Inside));
+        let is_outer = |name: &str| name.ends_with("outside") || name.starts_with("barrier");
+        let outer = setup.scenery.iter().filter(|own| is_outer(&own.name)).flat_map(|own| {
+            let kind = |polygon: &Vec<_>| if polygon.len() < ROUND { Of::Outside } else { Of::Wheel };
+            own.polygons_m.iter().map(move |polygon| (moment.placed_m(own.frame, polygon), kind(polygon)))
+        });
+        let placed = |(side, of): (Vec<Point3<f64>>, Of)| Edge {
+            corners_m: side.iter().map(|p| in_space(moment, p)).collect(),
+            of,
+        };
+        faces.chain(solids).chain(outer).map(placed).collect()
+    }
+
+    /// Tyre marks, over the ground that they are on.
+    fn marks(&self, origin: &Vector3<f64>) -> impl Iterator<Item = Piece> {
+        let marks = self.model.setup().scenery.iter().filter(|own| own.name.ends_with("marks"));
+        marks.map(|own| Piece { before_m: 0.03, ..polygons(&own.polygons_m, origin, Paint::Matt(linear(MARKS))) })
     }
 
     fn people(&self, stage: &mut Stage, moment: &Snapshot, origin: &Vector3<f64>, hidden: Option<usize>) {
@@ -224,12 +288,7 @@ impl<'a> Cast<'a> {
         if let Some(height) = self.reference_m {
             stage.pieces.push(plane(&Vector3::z(), height, &about, origin, paint));
         }
-        let marks = setup.scenery.iter().filter(|own| own.name.ends_with("marks"));
-        for own in marks {
-            let mut piece = polygons(&own.polygons_m, origin, Paint::Matt(linear(MARKS)));
-            piece.before_m = 0.03;
-            stage.pieces.push(piece);
-        }
+        stage.pieces.extend(self.marks(origin));
         for own in setup.scenery.iter().filter(|own| own.name.starts_with("barrier")) {
             stage.shades.push(stage.pieces.len());
             stage.pieces.push(polygons(&own.polygons_m, origin, Paint::Matt(linear([0.62, 0.64, 0.66]))));
@@ -338,7 +397,61 @@ impl<'a> Cast<'a> {
     }
 }
 
+/// A polygon, or the ends of a bar, in space.
+pub(super) struct Edge {
+    corners_m: Vec<Point3<f64>>,
+    of: Of,
+}
+
+/// What an edge belongs to.
+#[derive(Clone, Copy)]
+enum Of {
+    Inside,
+    Outside,
+    Wheel,
+}
+
+impl Edge {
+    /// The edge of a bag's section.
+    pub(super) fn of_section(moment: &Snapshot, section: &Section) -> Self {
+        Edge { corners_m: section.corners_m.iter().map(|p| in_space(moment, p)).collect(), of: Of::Inside }
+    }
+
+    fn is_at(&self, other: &Edge) -> bool {
+        let mut pairs = self.corners_m.iter().zip(&other.corners_m);
+        self.corners_m.len() == other.corners_m.len() && pairs.all(|(a, b)| (a - b).norm() < SAME_M)
+    }
+}
+
+/// The sides of a solid whose edges are drawn, of a bar and a rim the middle line.
+fn sides(moment: &Snapshot, solid: &Solid) -> Vec<Vec<Point3<f64>>> {
+    match &solid.shape {
+        Shape::HalfSpace { .. } => Vec::new(),
+        Shape::Capsule { ends_m, .. } => vec![moment.placed_m(solid.frame, ends_m)],
+        Shape::Rim { centre_m, axis, ring_radius_m, .. } => {
+            vec![moment.placed_m(solid.frame, &circle(centre_m, axis, *ring_radius_m))]
+        }
+        // of a round plate, the rims alone
+        Shape::Disc { .. } => moment.solid_m(solid).into_iter().filter(|side| side.len() >= ROUND).collect(),
+        _ => moment.solid_m(solid).into_iter().filter(|side| side.len() < ROUND).collect(),
+    }
+}
+
 impl Stage {
+    /// Gives everything a tint.
+    fn tint(&mut self, tint: Colour) {
+        let tinted = |own: Colour| [0, 1, 2].map(|c| own[c] + TINTED * (tint[c] - own[c]));
+        for piece in &mut self.pieces {
+            if let Paint::Matt(colour) = &mut piece.paint {
+                *colour = tinted(*colour);
+            }
+        }
+        for veil in &mut self.veils {
+            let (Veil::Sheet { colour, .. } | Veil::Line { colour, .. }) = veil;
+            *colour = tinted(*colour);
+        }
+    }
+
     fn outline(&mut self, corners: &[V3], colour: Colour, opacity: f32, pixels: f32) {
         for (i, from) in corners.iter().enumerate() {
             let ends = [*from, corners[(i + 1) % corners.len()]];
@@ -407,9 +520,9 @@ pub(super) fn frame_pose(moment: &Snapshot) -> Isometry3<f64> {
 }
 
 /// Bags as cloth round all that their sections reach.
-fn bags(stage: &mut Stage, moment: &Snapshot, at: &dyn Fn(&Point3<f64>) -> V3) {
+fn bags<'m>(stage: &mut Stage, sections: impl Iterator<Item = &'m Section>, at: &dyn Fn(&Point3<f64>) -> V3) {
     let mut cloths: Vec<(&str, Vec<V3>)> = Vec::new();
-    for section in &moment.sections {
+    for section in sections {
         let points = section.corners_m.iter().map(at).filter(|p| p.sum().is_finite());
         match cloths.iter_mut().find(|(name, _)| *name == section.name) {
             Some((_, known)) => known.extend(points),

@@ -2,12 +2,25 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
+use occupant_core::body::Body;
 use occupant_core::body::tti12::TTI12;
+use occupant_core::forces::contact::surface::Frame as Axes;
+use occupant_core::forces::joint::Joints;
+use occupant_core::model::{Model, seating::InitialPosture, setup::SetupBuilder};
+use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
+use occupant_core::vehicle::{FrameMotion, VehiclePath};
+use resvg::tiny_skia::{Color, Pixmap};
 
 use super::canvas::{Colour, Corner, Light, Paint, Piece, Spot, Veil, paint};
 use super::lens::{Lens, V3};
-use crate::body::Lump;
+use super::stage::in_space;
+use super::{Camera, MOST_GHOSTS, Photograph, Scene, Shown, abreast, photograph};
+use crate::body::{Lump, Snapshot};
+use crate::film::Frame;
 use crate::mesh::{FINE, hull};
 
 /// Each thing in its own colour, on black.
@@ -43,7 +56,11 @@ fn sphere(centre_m: Vector3<f64>, radius_m: f64, colour: Colour) -> Piece {
 }
 
 fn picture(lens: &Lens, size: [usize; 2], pieces: &[Piece], veils: &[Veil]) -> Vec<[u8; 3]> {
-    paint(&lens.before(&Vector3::zeros(), size), pieces, veils, &Plain)
+    haunted(lens, size, pieces, &[], veils)
+}
+
+fn haunted(lens: &Lens, size: [usize; 2], pieces: &[Piece], ghosts: &[Vec<Piece>], veils: &[Veil]) -> Vec<[u8; 3]> {
+    paint(&lens.before(&Vector3::zeros(), size), pieces, ghosts, veils, &Plain)
 }
 
 /// A point at the distance d, a to the left and h above, is at w/2 − f a/d, H/2 − f h/d, with f = H/2 / tan(angle/2).
@@ -98,6 +115,38 @@ fn a_veil_is_blended_before_a_thing_and_hidden_behind_it() {
     assert!(g == 0 && r.abs_diff(180) < 9 && b.abs_diff(180) < 9, "{r} {b}");
 }
 
+/// Of a ghost the nearest surface alone is blended, half of it, in squares: over sky, over what is behind it, not through
+/// what is before it. Of two ghosts the farther one is blended first, in any order. Veils behind a ghost are blended before
+/// it. A ghost in the place of a thing is not seen.
+#[test]
+fn a_ghost_is_blended_once_by_its_depth() {
+    const GREEN: Colour = [0.0, 1.0, 0.0];
+    let ball = |x: f64, colour| sphere(Vector3::new(x, 0.0, 0.0), 0.5, colour);
+    let middle = |pieces: &[Piece], ghosts: &[Vec<Piece>], veils: &[Veil]| {
+        haunted(&ahead(0.7), [40, 40], pieces, ghosts, veils)[20 * 40 + 20]
+    };
+    let close = |found: [u8; 3], shares: [f64; 3]| {
+        let apart = found.iter().zip(shares).map(|(own, share)| (f64::from(*own) - 255.0 * share.sqrt()).abs());
+        assert!(apart.fold(0.0, f64::max) <= 1.0, "{found:?}, {shares:?}");
+    };
+    close(middle(&[], &[vec![ball(3.0, BLUE)]], &[]), [0.0, 0.0, 0.5]);
+    // its far side, and what it is made of twice, add nothing
+    close(middle(&[], &[vec![ball(3.0, BLUE), ball(3.1, BLUE), ball(3.0, BLUE)]], &[]), [0.0, 0.0, 0.5]);
+    close(middle(&[ball(6.0, RED)], &[vec![ball(3.0, BLUE)]], &[]), [0.5, 0.0, 0.5]);
+    close(middle(&[ball(3.0, RED)], &[vec![ball(6.0, BLUE)]], &[]), [1.0, 0.0, 0.0]);
+    close(middle(&[ball(3.0, RED)], &[vec![ball(3.0, BLUE)]], &[]), [1.0, 0.0, 0.0]);
+    close(middle(&[ball(3.0, RED)], &[vec![ball(2.998, BLUE)]], &[]), [1.0, 0.0, 0.0]);
+    for ghosts in [[ball(3.0, BLUE), ball(6.0, GREEN)], [ball(6.0, GREEN), ball(3.0, BLUE)]] {
+        close(middle(&[ball(9.0, RED)], &ghosts.map(|own| vec![own]), &[]), [0.25, 0.25, 0.5]);
+    }
+    let sheet = |x: f32| {
+        let corners = [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]].map(|[y, z]| V3::new(x, y, z)).to_vec();
+        Veil::Sheet { corners, colour: GREEN, opacity: 0.5 }
+    };
+    close(middle(&[ball(9.0, RED)], &[vec![ball(3.0, BLUE)]], &[sheet(6.0)]), [0.25, 0.25, 0.5]);
+    close(middle(&[ball(9.0, RED)], &[vec![ball(3.0, BLUE)]], &[sheet(1.0)]), [0.25, 0.5, 0.25]);
+}
+
 #[test]
 fn the_bits_do_not_depend_on_the_number_of_threads() {
     let pieces: Vec<Piece> =
@@ -106,7 +155,8 @@ fn the_bits_do_not_depend_on_the_number_of_threads() {
         Veil::Line { ends: [V3::new(2.0, -1.0, 0.2), V3::new(4.0, 1.0, 0.1)], colour: BLUE, opacity: 0.7, pixels: 2.5 };
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| picture(&ahead(0.8), [160, 100], &pieces, std::slice::from_ref(&line)))
+        let ghosts = [vec![sphere(Vector3::new(2.5, 0.3, 0.1), 0.4, BLUE)], pieces[2..5].to_vec()];
+        pool.install(|| haunted(&ahead(0.8), [160, 100], &pieces, &ghosts, std::slice::from_ref(&line)))
     };
     let one = with(1);
     assert!(one.contains(&[255, 0, 0]));
@@ -153,34 +203,117 @@ fn hostile_lenses_and_places_give_a_picture() {
     }
 }
 
-/// A body dropped onto nothing, without a vehicle: every camera sees it.
-#[test]
-fn every_camera_sees_a_body_without_a_car() {
-    use super::{Camera, Scene};
-    use crate::body::Snapshot;
-    use occupant_core::body::Body;
-    use occupant_core::forces::joint::Joints;
-    use occupant_core::model::{Model, seating::InitialPosture, setup::SetupBuilder};
-    use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
-    use occupant_core::results::recorder::Watch;
-    use occupant_core::results::sample::Sample;
-    use occupant_core::run::simulate::simulate;
-    use occupant_core::vehicle::VehiclePath;
-
+/// A body dropped onto nothing, without a vehicle.
+fn fall(end_s: f64) -> (Model, Vec<Snapshot>) {
     let case = SetupBuilder::new("Fall", Body::male50(), Joints::male50());
     let standing = InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] }));
-    let model = Model::new(case.build(VehiclePath::parked(), standing, 0.01)).unwrap();
+    let model = Model::new(case.build(VehiclePath::parked(), standing, end_s)).unwrap();
     let mut moments = Vec::new();
     simulate(&model, &mut Watch(|sample: &Sample<'_>| moments.push(Snapshot::of(sample)))).unwrap();
+    (model, moments)
+}
+
+fn shown<'a>(model: &'a Model, moments: &'a [Snapshot]) -> Shown<'a> {
+    Shown { model, moments, clock_s: &[], caption: vec!["run".to_owned()] }
+}
+
+/// Every camera sees it.
+#[test]
+fn every_camera_sees_a_body_without_a_car() {
+    let (model, moments) = fall(0.01);
     assert_eq!(model.body().tree.segments().len(), TTI12.segments().len());
+    let run = shown(&model, &moments);
     for camera in [Camera::Ground, Camera::Vehicle, Camera::Chase, Camera::Driver] {
-        let scene = Scene::new(&model, &moments, camera, [96, 54], "", Vec::new()).unwrap();
+        let fitted = camera.fitted(&[&run], 1.78).unwrap();
+        let scene = Scene::new(&run, &[], fitted, [96, 54], "").unwrap();
         let pixmap = scene.frame(0).unwrap().rendered(1.0).unwrap();
         // trousers and shirt are blue, ground and sky grey
         let blue = pixmap.pixels().iter().filter(|p| i32::from(p.blue()) > i32::from(p.red()) + 35).count();
         assert!(camera == Camera::Driver || blue > 20, "{camera:?}: {blue}");
         assert!(scene.frame(moments.len()).is_err());
     }
-    assert!(Scene::new(&model, &[], Camera::Ground, [96, 54], "", Vec::new()).unwrap().frame(0).is_err());
-    assert!(Scene::new(&model, &moments, Camera::Ground, [0, 54], "", Vec::new()).is_err());
+    let empty = shown(&model, &[]);
+    let ground = Camera::Ground.fitted(&[&empty], 1.78).unwrap();
+    assert!(Scene::new(&empty, &[], ground, [96, 54], "").unwrap().frame(0).is_err());
+    assert!(Scene::new(&run, &[], ground, [0, 54], "").is_err());
+    assert!(Scene::new(&run, &vec![run.clone(); MOST_GHOSTS + 1], ground, [96, 54], "").is_err());
+}
+
+/// A run as its own ghost is not seen, by any camera; one that is lower is. One that has ended says so.
+#[test]
+fn a_ghost_stands_where_it_is_and_says_when_it_has_ended() {
+    let (model, moments) = fall(0.4);
+    let run = shown(&model, &moments);
+    let last = moments.len() - 1;
+    let bare = |scene: &Scene<'_>, at: usize| {
+        let lens = scene.camera.lens(&model, &moments[at]);
+        let origin = Vector3::zeros();
+        scene.bare(at, &lens, &lens.before(&origin, [192, 108]), &origin)
+    };
+    // stays where it was when it began to fall
+    let stays = vec![moments[0].clone(); moments.len()];
+    let ghost = shown(&model, &stays);
+    for camera in [Camera::Ground, Camera::Vehicle, Camera::Chase] {
+        let fitted = camera.fitted(&[&run], 1.78).unwrap();
+        let scene = |ghosts: &[Shown<'_>]| bare(&Scene::new(&run, ghosts, fitted, [192, 108], "").unwrap(), last);
+        let alone = scene(&[]);
+        assert_eq!(alone, scene(&[run.clone(), run.clone()]), "{camera:?}");
+        let pink = |all: &[[u8; 3]]| all.iter().filter(|[r, g, b]| *r > g.saturating_add(15) && b > g).count();
+        assert_eq!(pink(&alone), 0, "{camera:?}");
+        let seen = pink(&scene(std::slice::from_ref(&ghost)));
+        assert!(seen > 100, "{camera:?}: {seen}");
+    }
+    let fitted = Camera::Ground.fitted(&[&run], 1.78).unwrap();
+    let scene = Scene::new(&run, &[ghost], fitted, [192, 108], "").unwrap();
+    let said = |at: usize| scene.captions(at).into_iter().map(|(_, line)| line).collect::<Vec<_>>();
+    assert_eq!(said(0), ["run", "run"]);
+    assert_eq!(said(last), ["run", "run, ended at 0 ms and stays as it was then"]);
+}
+
+/// Carried to where another vehicle is, nothing moves in the vehicle's axes, not even what stands in space.
+#[test]
+fn a_carried_moment_is_the_same_in_its_vehicle() {
+    let (_, moments) = fall(0.01);
+    let turn = Rotation3::from_euler_angles(0.3, -0.2, 2.0).into_inner();
+    let vehicle = FrameMotion { origin_m: Vector3::new(5.0, -3.0, 1.0), rotation: turn, ..moments[0].vehicle };
+    let (own, carried) = (&moments[1], moments[1].carried_by(&vehicle));
+    let still = [Point3::new(1.0, 2.0, 3.0)];
+    let [before, after] = [own, &carried].map(|moment| moment.placed_m(Axes::Space, &still)[0]);
+    assert!((before - after).norm() < 1e-12, "{before} {after}");
+    assert_eq!(own.spheres_m, carried.spheres_m);
+    let head = own.spheres_m[0];
+    assert_eq!(in_space(&carried, &head), vehicle.point_to_space(head.coords).into());
+    // and back
+    let back = carried.carried_by(&own.vehicle);
+    assert!((back.placed_m(Axes::Space, &still)[0] - before).norm() < 1e-12);
+}
+
+/// A white picture twice as wide as high on a square: half of the free rows are dark.
+#[test]
+fn a_photograph_is_whole_on_a_dark_ground() {
+    let mut white = Pixmap::new(80, 40).unwrap();
+    white.fill(Color::WHITE);
+    let png = white.encode_png().unwrap();
+    let of = |png: Option<(&[u8], Option<f64>)>, size| {
+        let own = Photograph { png, title: "", about: "", time_s: 0.04, caption: "" };
+        photograph(&own, size).and_then(|frame| frame.rendered(1.0))
+    };
+    let count = |picture: &Pixmap| picture.pixels().iter().filter(|pixel| pixel.red() == 255).count();
+    let square = of(Some((&png, Some(0.03))), [720, 720]).unwrap();
+    // measured: 259200 less what the words have
+    assert_eq!(count(&square), 720 * 360);
+    assert_eq!(count(&of(None, [720, 720]).unwrap()), 0);
+    let huge = {
+        let mut png = png.clone();
+        png[16..20].copy_from_slice(&60_000u32.to_be_bytes());
+        png
+    };
+    assert!(of(Some((&huge, None)), [64, 64]).unwrap_err().contains("60000 × 40 pixels"));
+    for wrong in [&png[..30], &png[..png.len() / 2], b"", b"GIF89a"] {
+        assert!(of(Some((wrong, None)), [64, 64]).unwrap_err().contains("cannot be read as PNG"));
+    }
+    let frame = |size| of(None, size).map(Frame::Pixels).unwrap();
+    let both = abreast(frame([30, 20]), frame([31, 20])).unwrap().rendered(1.0).unwrap();
+    assert_eq!([both.width(), both.height()], [61, 20]);
+    assert!(abreast(frame([30, 20]), frame([30, 21])).is_err());
 }

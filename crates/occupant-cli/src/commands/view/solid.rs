@@ -5,13 +5,12 @@ use std::str::FromStr;
 
 use nalgebra::{Point3, Vector3};
 use occupant_files::base::input_file;
-use occupant_files::results::Results;
-use occupant_pictures::body::Snapshot;
 use occupant_pictures::film::{Film, Frame};
-use occupant_pictures::scene::{Camera, Carrier, Lens, Scene};
+use occupant_pictures::scene::{Camera, Carrier, Lens, Scene, Shown, abreast};
 use placed_text::{Document, Problem, nearest};
 
 use super::Kind;
+use super::others::{Beside, Opened, Others, Run};
 use crate::base::Failure;
 
 /// Sizes of a picture alone and of a film for players, and of pictures on a sheet and of a GIF, pixels.
@@ -36,6 +35,9 @@ pub(super) struct Solid {
     /// Width and height in pixels; 1920x1080 if absent, 960x540 for each of several pictures and for a GIF
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, requires = "solid")]
     size: Option<Size>,
+
+    #[command(flatten)]
+    pub(super) others: Others,
 }
 
 /// Width and height, pixels.
@@ -57,23 +59,42 @@ impl Solid {
     /// What makes the frames.
     pub(super) fn scene<'a>(
         &self,
-        results: &'a Results,
-        moments: &'a [Snapshot],
-        origin: &str,
+        run: &'a Run,
+        others: &'a Opened,
         pace: &str,
         kind: Kind,
     ) -> Result<impl Fn(usize) -> Result<Frame, String> + Sync + use<'a>, Failure> {
         let usual = match kind {
-            Kind::Picture(_) if moments.len() > 1 => SMALL,
+            Kind::Picture(_) if run.moments.len() > 1 => SMALL,
             Kind::Film(Film::Gif) => SMALL,
             _ => LARGE,
         };
-        let size = self.size.map_or(usual, |size| size.0);
-        let caption = std::iter::once(origin.to_owned()).chain(results.notes()).chain(results.doubt()).collect();
+        let [width, height] = self.size.map_or(usual, |size| size.0);
         let about = pace.trim_start_matches([',', ' ']);
-        let scene = Scene::new(&results.model, moments, self.camera()?, size, about, caption);
-        let scene = scene.map_err(Failure::plain)?;
-        Ok(move |frame| scene.frame(frame))
+        let shown = run.shown("", (!others.ghosts.is_empty()).then_some(run));
+        let ghosts: Vec<Shown<'a>> = others.ghosts.iter().map(|own| own.shown("ghost: ", Some(run))).collect();
+        let beside = match &others.beside {
+            Some(Beside::Run(own)) => Some(own.shown("", None)),
+            _ => None,
+        };
+        let left = if others.beside.is_some() { width / 2 } else { width };
+        let all: Vec<&Shown<'_>> = std::iter::once(&shown).chain(&ghosts).chain(&beside).collect();
+        let camera = self.camera()?.fitted(&all, left as f64 / height as f64).map_err(Failure::plain)?;
+        let scene = |run: &Shown<'a>, ghosts: &[Shown<'a>], width: usize| {
+            Scene::new(run, ghosts, camera, [width, height], about).map_err(Failure::plain)
+        };
+        let own = scene(&shown, &ghosts, left)?;
+        let right = width - left;
+        let beside_scene = beside.as_ref().map(|run| scene(run, &[], right)).transpose()?;
+        Ok(move |frame: usize| {
+            let first = own.frame(frame)?;
+            let second = match (&others.beside, &beside_scene) {
+                (Some(Beside::Test(test)), _) => test.frame(run.clock_s[frame], [right, height])?,
+                (_, Some(scene)) => scene.frame(frame)?,
+                _ => return Ok(first),
+            };
+            abreast(first, second)
+        })
     }
 
     fn camera(&self) -> Result<Camera, Failure> {
