@@ -28,8 +28,10 @@ const full = (name, flags, ...parts) => box(name, u32(flags), ...parts);
 
 const MATRIX = u32(0x10000, 0, 0, 0, 0x10000, 0, 0, 0, 0x40000000);
 
-/** What the encoder gave of a picture: bytes, whether it stands alone, and its place among the pictures shown. */
-/** A film of such samples, in the order of decoding, `rate` a second; `config` is the encoder's. */
+/**
+ * A film, `rate` pictures a second. Samples are what the encoder gave, in its order: bytes, whether a picture stands alone, its
+ * place among the pictures shown. `config` is the decoder's, as the encoder told it.
+ */
 export function mp4(samples, config, [width, height], rate) {
   const head = box("ftyp", "isom", u32(512), "isomiso2mp41");
   const size = movie(samples, config, [width, height], rate, 0).length;
@@ -89,21 +91,28 @@ function table(samples, config, [width, height], tick, offset) {
   );
 }
 
-/** The sample entry: H.264 with the description of its encoder, or VP9. */
-function entry({ codec, description }, width, height) {
-  const shape = [
-    ...zeros(6),
-    ...u16(1),
-    ...zeros(16),
-    ...u16(width, height),
+/** Numbers of colours (ISO/IEC 23091-2) by the names of WebCodecs. */
+const PRIMARIES = { bt709: 1, bt470bg: 5, smpte170m: 6, bt2020: 9, smpte432: 12 };
+const TRANSFERS = { bt709: 1, smpte170m: 6, linear: 8, "iec61966-2-1": 13, pq: 16, hlg: 18 };
+const MATRICES = { rgb: 0, bt709: 1, bt470bg: 5, smpte170m: 6, "bt2020-ncl": 9 };
+
+/** The sample entry: H.264 with the description of its encoder, or VP9; and the colours. */
+function entry({ codec, description, colorSpace }, width, height) {
+  const { primaries, transfer, matrix, fullRange } = colorSpace ?? {};
+  const colours = [PRIMARIES[primaries] ?? 1, TRANSFERS[transfer] ?? 1, MATRICES[matrix] ?? 1];
+  const range = fullRange ? 1 : 0;
+  const shape = [...zeros(6), ...u16(1), ...zeros(16), ...u16(width, height)];
+  const start = [
+    ...shape,
     ...u32(0x480000, 0x480000, 0),
+    ...u16(1),
+    ...zeros(32),
+    ...u16(24, 0xffff),
   ];
-  const start = [...shape, ...u16(1), ...zeros(32), ...u16(24, 0xffff)];
-  if (codec.startsWith("avc1")) return box("avc1", start, box("avcC", new Uint8Array(description)));
+  const colr = box("colr", "nclx", u16(...colours), [range << 7]);
+  if (codec.startsWith("avc1"))
+    return box("avc1", start, box("avcC", new Uint8Array(description)), colr);
   const [, profile, level, depth] = codec.split(".").map(Number);
-  return box(
-    "vp09",
-    start,
-    full("vpcC", 0x1000000, [profile, level, (depth << 4) | 2, 1, 1, 1], u16(0)),
-  );
+  const about = [profile, level, (depth << 4) | 2 | range, ...colours];
+  return box("vp09", start, full("vpcC", 0x1000000, about, u16(0)), colr);
 }
