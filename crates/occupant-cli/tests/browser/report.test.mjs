@@ -20,7 +20,7 @@ if (pictures) mkdirSync(pictures, { recursive: true });
 /** A report of 0.2 s at 1 kHz, the program of the page included. */
 const MOST_BYTES = 3e6;
 
-const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark, isShort, tellsFirst, judgesOnlyDummies, hasTabs, separatesLabels, drawsThrows, prints, foldsStudies, verifiesItself, hasCameras, stands, choosesCameras, films, recordsFilms, saysWhyNoFilm };
+const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark, isShort, tellsFirst, judgesOnlyDummies, hasTabs, separatesLabels, drawsThrows, prints, foldsStudies, verifiesItself, hasCameras, stands, choosesCameras, seesOtherCars, films, recordsFilms, saysWhyNoFilm };
 
 const state = (page) =>
   page.evaluate(() => {
@@ -691,6 +691,25 @@ async function choosesCameras(open) {
   await select.selectOption("oblique");
   await page.getByLabel("follow").selectOption({ label: "nothing" });
   assert.equal(await others[0].isDisabled(), false);
+  return page;
+}
+
+/** The exterior of another car is an outline. */
+async function seesOtherCars(open) {
+  const page = await open(driven);
+  await chooses(page, "ground");
+  const shot = () => page.locator("#stage").screenshot();
+  const before = await shot();
+  const lines = await page.evaluate(() => {
+    const { runs, stage } = window.occupantReport;
+    const own = stage.actors[0].belts.ribbons.filter((_, i) => runs[0].belts[i].name === "suv outside");
+    own.flatMap((one) => one.meshes).forEach((mesh) => (mesh.visible = false));
+    stage.draw();
+    return own.length;
+  });
+  await settled(page);
+  assert.ok(lines > 5, `${lines} outlines`);
+  assert.ok(!before.equals(await shot()), "the other car is not seen");
   return page;
 }
 

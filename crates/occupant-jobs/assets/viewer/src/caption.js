@@ -164,7 +164,7 @@ function within(pen, texts, room, most) {
     const isLast = i === texts.length - 1;
     if (lines.length + own.length + (isLast ? 0 : 1) > most)
       return [...lines, `… and ${texts.length - i} more, in the report`];
-    lines.push(...own);
+    lines.push(...own.map((line) => pen.cut(line, room, 13)));
   }
   return lines;
 }

@@ -53,6 +53,8 @@ class Sheet {
   /** Draws the clock's time, with its words. */
   draw(pace) {
     const { stage } = this;
+    if (stage.renderer.getContext().isContextLost())
+      throw new Error("the browser took the 3-D drawing away; load the page again");
     stage.render();
     stage.labels.place();
     this.caption.draw(this.clock.time, pace);
@@ -81,7 +83,7 @@ export async function picture(stage, clock) {
     sheet.draw("");
     const blob = await new Promise((done) => sheet.canvas.toBlob(done, "image/png"));
     if (!blob) throw new Error("the browser makes no picture of this size");
-    return { blob, name: nameOf(stage, `-${(clock.time * 1e3).toFixed(1)}-ms`, "png") };
+    return { blob, name: `${nameOf(stage, `-${(clock.time * 1e3).toFixed(1)}-ms`)}.png` };
   } finally {
     sheet.end();
   }
@@ -94,6 +96,7 @@ export async function film(stage, clock, told) {
   const pace =
     speed === 1 ? "real time" : `${Number((1 / speed).toPrecision(4))} times slower than real time`;
   const sheet = new Sheet(stage, clock, FILM);
+  const named = nameOf(stage, "");
   const coder = window.VideoEncoder ? await Coder.of(sheet.canvas) : null;
   const maker = coder ?? new Recording(sheet.canvas);
   sheet.begin();
@@ -108,7 +111,7 @@ export async function film(stage, clock, told) {
     }
     const blob = await maker.end(times.length);
     const ending = blob.type.startsWith("video/mp4") ? "mp4" : "webm";
-    return { blob, name: nameOf(stage, "", ending), seconds: coder && times.length / RATE };
+    return { blob, name: `${named}.${ending}`, seconds: coder && times.length / RATE };
   } finally {
     maker.close();
     sheet.end();
@@ -122,9 +125,9 @@ export function tooLong(clock) {
   return `At ${clock.speed}× the film would last ${seconds} s, and ${MOST_S} s is the limit: choose a higher speed.`;
 }
 
-function nameOf(stage, moment, ending) {
-  const [run] = stage.runs;
-  return `${run.label.replace(/\.\w+$/, "")}-${stage.eye.preset}${moment}.${ending}`;
+function nameOf(stage, moment) {
+  const label = stage.runs[0].label.replace(/\.\w+$/, "").replace(/[\\/:*?"<>|]+/g, "_");
+  return `${label}-${stage.eye.preset}${moment}`;
 }
 
 /** Lets the page live. Timers of pages that nobody sees are slow. */
