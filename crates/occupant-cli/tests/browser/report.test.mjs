@@ -504,7 +504,7 @@ const outputs = (page) => page.evaluate(() => window.occupantReport.runs[0].time
 const lookedAt = (count) => [...Array(count).keys()].filter((i) => i % Math.ceil(count / 60) === 0);
 const close = (found, expected, most, what) => assert.ok(apart(found, expected) < most, `${what}: ${found} instead of ${expected}`);
 
-/** The numbers of `occupant view --3d`, computed from poses by the definitions. Measured differences: up to 2e-6 m. */
+/** The numbers of `occupant view --3d`, computed from poses by the definitions. Measured differences: up to 4e-9 m. */
 async function stands(open) {
   for (const file of [report, two, thrown, driven]) {
     const page = await open(file);
@@ -539,13 +539,13 @@ async function stands(open) {
           ? [...view.spheres, ...view.plates, ...view.lines]
           : view.spheres.filter((sphere) => apart(sphere.at, middle) < 1.6);
       const shares = views.flatMap((view) => all(view).map((one) => share(view, one)));
-      assert.ok(Math.abs(Math.max(...shares) - 0.76) < 1e-4, `${file}, ${camera}: ${Math.max(...shares)}`);
+      assert.ok(Math.abs(Math.max(...shares) - 0.76) < 1e-6, `${file}, ${camera}: ${Math.max(...shares)}`);
       const way = camera === "vehicle" ? (view, v) => v : (view, v) => turned(view.vehicle.slice(3), v);
       const back = camera === "vehicle" ? [1, 1.05, -0.42] : [0.35, 1, -0.55];
       const stand = camera === "vehicle" ? (view) => view.eye : (view) => placed(view.vehicle, view.eye);
       for (const view of views) {
-        close(stand(view), stand(views[0]), 1e-4, `${camera} moves`);
-        close(way(view, view.ahead), times(unit(back), -1), 1e-5, `${camera} looks`);
+        close(stand(view), stand(views[0]), 1e-6, `${camera} moves`);
+        close(way(view, view.ahead), times(unit(back), -1), 1e-7, `${camera} looks`);
       }
       // the middle of all that is seen is on the axis
       const ends = (i, sign) => {
@@ -554,7 +554,7 @@ async function stands(open) {
       };
       const target = [0, 1, 2].map((i) => (ends(i, 1) + ends(i, -1)) / 2);
       const off = minus(target, stand(views[0]));
-      assert.ok(length(cross(off, unit(back))) < 1e-4, `${file}, ${camera}: ${target} is not in the middle`);
+      assert.ok(length(cross(off, unit(back))) < 1e-6, `${file}, ${camera}: ${target} is not in the middle`);
     }
     await chooses(page, "chase");
     for (const i of some) {
@@ -565,8 +565,8 @@ async function stands(open) {
       // right and up of vehicle-space, whose Z is down
       const right = cross([0, 0, 1], ahead);
       const eye = add(middle, times(ahead, -6), times(right, 2.2), [0, 0, -2]);
-      close(placed(view.vehicle, view.eye), eye, 1e-4, "chase stands");
-      close(turned(view.vehicle.slice(3), view.ahead), unit(minus(add(middle, times(ahead, 0.5)), eye)), 1e-5, "chase looks");
+      close(placed(view.vehicle, view.eye), eye, 1e-6, "chase stands");
+      close(turned(view.vehicle.slice(3), view.ahead), unit(minus(add(middle, times(ahead, 0.5)), eye)), 1e-7, "chase looks");
       assert.ok(Math.abs(turned(view.vehicle.slice(3), cross(view.ahead, view.up))[2]) < 1e-6, "chase is not level");
     }
     await chooses(page, "driver");
@@ -574,10 +574,10 @@ async function stands(open) {
       const view = await moment(page, i);
       const pose = view.poses[view.heads[0]];
       const skull = view.spheres.find((sphere) => sphere.segment === view.heads[0]);
-      close(view.eye, placed(pose, add(skull.centre, [0.9 * skull.radius, 0, 0])), 1e-5, "the eye");
-      close(view.ahead, turned(pose.slice(3), unit([1, 0, -0.12])), 1e-5, "the eye looks");
+      close(view.eye, placed(pose, add(skull.centre, [0.9 * skull.radius, 0, 0])), 1e-7, "the eye");
+      close(view.ahead, turned(pose.slice(3), unit([1, 0, -0.12])), 1e-7, "the eye looks");
       const up = turned(pose.slice(3), [0, 0, 1]);
-      assert.ok(dot(view.up, up) > 0.99 && Math.abs(dot(cross(view.ahead, view.up), up)) < 1e-5, `up of the eye ${view.up}`);
+      assert.ok(dot(view.up, up) > 0.99 && Math.abs(dot(cross(view.ahead, view.up), up)) < 1e-7, `up of the eye ${view.up}`);
       assert.deepEqual(view.isHeadSeen, view.heads.map((_, body) => body > 0));
     }
     await chooses(page, "chase");
