@@ -795,6 +795,7 @@ async function films(open) {
     assert.ok(difference(film.frames[0], film.frames[1]) > 1, "the film stands still");
     await seek(page, 0.1);
     const still = await file(page, "Save picture");
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), "Save picture");
     assert.equal(still.suggestedFilename(), "cart-lap-torso-vehicle-100.0-ms.png");
     const stillPath = join(folder, "still.png");
     await still.saveAs(stillPath);
@@ -830,6 +831,10 @@ async function films(open) {
   await page.waitForFunction(() => /^picture [2-9]/.test(document.querySelector(".film output").textContent));
   await page.keyboard.press("1");
   await picture(page, "filming-360");
+  // no picture meanwhile, and nothing else can be changed
+  await page.getByRole("button", { name: "Save picture" }).click();
+  assert.match(await page.locator(".film output").textContent(), /^picture/);
+  assert.equal(await page.locator(".controls > [inert]").count(), 3);
   await page.getByRole("button", { name: "Stop" }).click();
   await page.waitForFunction(() => document.querySelector(".film output").textContent === "Stopped: no file.");
   assert.ok(Math.abs((await state(page)).time - 0.05) < 1e-9);

@@ -156,19 +156,24 @@ function buildFilm(root, stage, clock) {
     still,
     said,
   );
-  let goes = false;
+  let [busy, goes] = [false, false];
+  const isBusy = () => busy || stage.saving !== null;
 
   /** Does a job while nothing else can be changed, and offers its file. */
   const make = async (job) => {
     const others = [...root.children].filter((child) => child !== row);
-    others.forEach((child) => (child.inert = still.disabled = true));
-    try {
-      const made = await job();
-      said.textContent = made ? saved(made) : "Stopped: no file.";
-    } catch (error) {
-      said.textContent = `Not saved: ${error.message}`;
-    }
-    others.forEach((child) => (child.inert = still.disabled = false));
+    others.forEach((child) => (child.inert = true));
+    // no counting aloud
+    said.setAttribute("aria-live", "off");
+    busy = true;
+    const words = await job().then(
+      (made) => (made ? saved(made) : "Stopped: no file."),
+      (error) => `Not saved: ${error.message}`,
+    );
+    busy = false;
+    said.setAttribute("aria-live", "polite");
+    said.textContent = words;
+    others.forEach((child) => (child.inert = false));
   };
   const told = (done, count) => {
     said.textContent = `picture ${done} of ${count}`;
@@ -179,6 +184,7 @@ function buildFilm(root, stage, clock) {
       goes = false;
       return;
     }
+    if (isBusy()) return;
     const long = tooLong(clock);
     if (long) {
       said.textContent = long;
@@ -190,7 +196,9 @@ function buildFilm(root, stage, clock) {
     goes = false;
     save.textContent = "Save film";
   });
-  still.addEventListener("click", () => make(() => picture(stage, clock)));
+  still.addEventListener("click", () => {
+    if (!isBusy()) make(() => picture(stage, clock));
+  });
   return row;
 }
 
