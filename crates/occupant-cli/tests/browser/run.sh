@@ -21,6 +21,8 @@ done
 "$occupant" report "$out/two.mcap" --output "$out/two.html"
 "$occupant" run "$root/scenarios/pedestrian.toml" --quiet --output "$out/thrown.mcap"
 "$occupant" report "$out/thrown.mcap" --output "$out/thrown.html"
+"$occupant" run "$root/scenarios/head-on.toml" --quiet --output "$out/driven.mcap"
+"$occupant" report "$out/driven.mcap" --output "$out/driven.html"
 "$occupant" report "$out/cart-lap-torso.mcap" --against "$out/cart-unbelted.mcap" --output "$out/comparison.html"
 study="$out/study"
 "$occupant" sweep "$root/scenarios/studies/screening-morris.toml" --output "$study" --quiet

@@ -5,6 +5,7 @@ use nalgebra::Point3;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::model::Model;
+use occupant_core::model::setup::Scenery;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
@@ -101,6 +102,8 @@ pub(super) struct Occupant {
     pub(super) dummy: &'static str,
     /// Whether it gets verdicts; else limits are yardsticks.
     pub(super) judged: bool,
+    /// The segment of its head, with whose eye the page looks; none of a body without one.
+    pub(super) head: Option<usize>,
 }
 
 /// The convex hull of two ellipsoids, each centre x, y, z and half axes x, y, z, segment axes, m.
@@ -131,6 +134,9 @@ struct SurfaceData {
     material: usize,
     corners: Vec<[f64; 3]>,
     normal: [f64; 3],
+    /// Whether it is of a vehicle's exterior.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    outside: bool,
 }
 
 /// Records what a page shows of a run, output by output.
@@ -184,7 +190,7 @@ impl PageRecorder {
         impact.judge(&mut summary, model);
         let summary = &summary;
         let occupants: Vec<Occupant> =
-            summary.people().into_iter().map(|one| Occupant::of(one, &told.judged)).collect();
+            summary.people().into_iter().map(|one| Occupant::of(one, &told.judged, model)).collect();
         let mut times = Array::default();
         times.float64(&series.time_s);
         let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
@@ -282,9 +288,12 @@ fn names(model: &Model) -> Vec<String> {
 }
 
 impl Occupant {
-    fn of((prefix, person): (String, Person), judged: &[String]) -> Self {
+    fn of((prefix, person): (String, Person), judged: &[String], model: &Model) -> Self {
         let name = prefix.trim_end_matches('.').to_owned();
-        Occupant { judged: judged.contains(&name), name, dummy: person.dummy }
+        let rows = model.body().tree.bodies();
+        let row = rows.iter().find(|row| row.name == name).or(rows.first());
+        let head = row.and_then(|row| row.landmarks.head).map(|segment| segment.index());
+        Occupant { judged: judged.contains(&name), name, dummy: person.dummy, head }
     }
 
     /// Whose a row is, by its name: of `driver` and `driver_2` the longer that fits.
@@ -343,6 +352,7 @@ fn surfaces(model: &Model) -> Vec<SurfaceData> {
             material: surface.material,
             corners: corners.into_iter().map(|p| turned(p.into())).collect(),
             normal: turned(face.normal.into()),
+            outside: false,
         }
     })
     .collect()
@@ -351,9 +361,12 @@ fn surfaces(model: &Model) -> Vec<SurfaceData> {
 /// Road, tyre marks, barriers and the exterior of the vehicle, without contacts.
 fn scenery(model: &Model) -> Vec<SurfaceData> {
     let drawn = model.setup().scenery.iter().filter(|own| is_shown(model, own.frame));
-    let plates =
-        drawn.flat_map(|own| own.polygons_m.iter().filter(|corners| corners.len() > 2).map(|p| (own.frame, p)));
-    plates.map(|(frame, corners)| SurfaceData::plate(frame, SCENERY, "", corners)).collect()
+    let plates = drawn.flat_map(|own| own.polygons_m.iter().filter(|corners| corners.len() > 2).map(move |p| (own, p)));
+    let plate = |(own, corners): (&Scenery, &Vec<Point3<f64>>)| SurfaceData {
+        outside: own.name.ends_with("outside"),
+        ..SurfaceData::plate(own.frame, SCENERY, "", corners)
+    };
+    plates.map(plate).collect()
 }
 
 /// The first faces of all solids, then the others.
@@ -384,6 +397,7 @@ impl SurfaceData {
             material,
             corners: vec![none; 3],
             normal: none,
+            outside: false,
         }
     }
 
@@ -401,6 +415,7 @@ impl SurfaceData {
             material,
             corners: corners.iter().map(|p| turned((*p).into())).collect(),
             normal: turned(normal.into()),
+            outside: false,
         }
     }
 }
@@ -436,7 +451,8 @@ mod tests {
 
     #[test]
     fn rows_belong_to_the_occupant_whose_whole_name_they_begin_with() {
-        let all = ["driver", "driver_2", ""].map(|name| Occupant { name: name.to_owned(), dummy: "", judged: false });
+        let occupant = |name: &str| Occupant { name: name.to_owned(), dummy: "", judged: false, head: None };
+        let all = ["driver", "driver_2", ""].map(occupant);
         let owner = |text: &str| Occupant::owner(&all, text).map(|one| one.name.as_str());
         assert_eq!(owner("driver.HIC15"), Some("driver"));
         assert_eq!(owner("driver_2.HIC15"), Some("driver_2"));

@@ -1,10 +1,13 @@
-// Belts: ribbons from anchor to anchor, as wide as webbing, upright on the plane in which the belt runs.
+// Belts: ribbons from anchor to anchor, as wide as webbing, upright on the plane in which the belt runs. What is closed is an
+// outline: bags, other vehicles, and parts that move in the vehicle.
 
 import {
   BufferAttribute,
   BufferGeometry,
   DoubleSide,
   Group,
+  Line,
+  LineBasicMaterial,
   Mesh,
   MeshBasicMaterial,
   Vector3,
@@ -18,12 +21,41 @@ const THROUGH = 0.3;
 export class Belts {
   constructor(run) {
     this.group = new Group();
-    this.ribbons = run.belts.map((belt) => new Ribbon(belt));
+    this.ribbons = run.belts.map((belt) => (isClosed(belt) ? new Outline(belt) : new Ribbon(belt)));
     for (const ribbon of this.ribbons) this.group.add(...ribbon.meshes);
   }
 
   move(at) {
     for (const ribbon of this.ribbons) ribbon.move(at);
+  }
+}
+
+function isClosed({ points, count }) {
+  const last = 3 * (count - 1);
+  return [0, 1, 2].every((axis) => points[axis] === points[last + axis]);
+}
+
+/** Puts the course of a belt between two outputs into `course`. */
+function courseAt(belt, { index, fraction }, course) {
+  const size = course.length;
+  const here = belt.points.subarray(index * size, (index + 1) * size);
+  const next = fraction > 0 ? belt.points.subarray((index + 1) * size) : here;
+  for (let i = 0; i < size; i++) course[i] = here[i] + fraction * (next[i] - here[i]);
+}
+
+class Outline {
+  constructor(belt) {
+    this.belt = belt;
+    this.places = new BufferAttribute(new Float32Array(3 * belt.count), 3);
+    const geometry = new BufferGeometry().setAttribute("position", this.places);
+    const line = new Line(geometry, new LineBasicMaterial({ color: SLACK }));
+    line.frustumCulled = false;
+    this.meshes = [line];
+  }
+
+  move(at) {
+    courseAt(this.belt, at, this.places.array);
+    this.places.needsUpdate = true;
   }
 }
 
@@ -48,13 +80,10 @@ class Ribbon {
     for (const mesh of this.meshes) mesh.frustumCulled = false;
   }
 
-  move({ index, fraction }) {
-    const size = this.course.length;
-    const here = this.belt.points.subarray(index * size, (index + 1) * size);
-    const next = fraction > 0 ? this.belt.points.subarray((index + 1) * size) : here;
-    for (let i = 0; i < size; i++) this.course[i] = here[i] + fraction * (next[i] - here[i]);
+  move(at) {
+    courseAt(this.belt, at, this.course);
     this.spread();
-    const color = this.belt.force[index] > 0 ? TAUT : SLACK;
+    const color = this.belt.force[at.index] > 0 ? TAUT : SLACK;
     this.solid.color.setHex(color);
     this.through.color.setHex(color);
   }

@@ -3,11 +3,18 @@
 import { SPEEDS } from "./clock.js";
 import { nearest } from "./data.js";
 import { element, figures, milliseconds } from "./dom.js";
-import { PRESETS } from "./eye.js";
+import { CAMERAS } from "./cameras.js";
+import { PRESETS, VIEWS } from "./eye.js";
+import { film, noFilm, picture, tooLong } from "./film.js";
 
 export function buildControls(root, clock, stage, runs) {
   root.append(buildPlayback(clock));
-  if (stage) root.append(buildCamera(stage, runs[0]), buildToggles(stage, runs));
+  if (stage)
+    root.append(
+      buildCamera(stage, runs[0]),
+      buildToggles(stage, runs),
+      buildFilm(root, stage, clock),
+    );
 }
 
 function buildPlayback(clock) {
@@ -61,11 +68,25 @@ function buildPlayback(clock) {
 }
 
 function buildCamera(stage, run) {
-  const presets = PRESETS.map((name, i) => {
-    const button = element("button", { type: "button", title: String(i + 1) }, name);
-    button.addEventListener("click", () => stage.eye.look(name));
-    return button;
-  });
+  const { eye } = stage;
+  const key = (name) => PRESETS.indexOf(name) + 1;
+  const option = (name) => {
+    const words = name in CAMERAS ? `${name} – ${CAMERAS[name][0]}` : name;
+    return element("option", { value: name }, `${words} (${key(name)})`);
+  };
+  const camera = element(
+    "select",
+    { id: "camera" },
+    element("optgroup", { label: "Views" }, ...VIEWS.map(option)),
+    element("optgroup", { label: "Cameras" }, ...Object.keys(CAMERAS).map(option)),
+  );
+  camera.addEventListener("change", () => eye.look(camera.value));
+  const reset = element(
+    "button",
+    { type: "button", title: "Undo what was turned by hand: 0" },
+    "Reset",
+  );
+  reset.addEventListener("click", () => eye.look(eye.preset));
   const follow = element("select", { id: "follow" });
   const choices = [
     ["-1", "the vehicle"],
@@ -73,14 +94,23 @@ function buildCamera(stage, run) {
     ["-2", "nothing"],
   ];
   for (const [value, name] of choices) follow.append(element("option", { value }, name));
-  follow.addEventListener("change", () => stage.eye.setFollowed(Number(follow.value)));
+  follow.value = String(eye.followed);
+  follow.addEventListener("change", () => eye.setFollowed(Number(follow.value)));
   const world = element("select", { id: "world" });
   for (const name of ["vehicle", "ground"]) world.append(element("option", { value: name }, name));
+  world.value = stage.world;
   world.addEventListener("change", () => stage.setWorld(world.value));
+  eye.told = () => {
+    camera.value = eye.preset;
+    // cameras ride on what they belong to
+    follow.disabled = world.disabled = eye.isCamera;
+  };
+  eye.told();
   return element(
     "div",
-    { class: "row camera", role: "group", "aria-label": "Camera" },
-    ...presets,
+    { class: "row camera", role: "group", "aria-label": "Where it is seen from" },
+    element("label", {}, "Camera ", camera),
+    reset,
     element("label", {}, "follow ", follow),
     element("label", {}, "at rest ", world),
   );
@@ -109,4 +139,74 @@ function buildToggles(stage, runs) {
     row.append(element("span", { class: "hint" }, text));
   }
   return row;
+}
+
+function buildFilm(root, stage, clock) {
+  const button = (name, title) => element("button", { type: "button", title }, name);
+  const title = "From the begin to the end at this speed, from this camera, 25 pictures a second";
+  const [save, still] = [button("Save film", title), button("Save picture", "This moment as PNG")];
+  const said = element("output", { class: "hint" });
+  const lacking = noFilm();
+  save.disabled = lacking !== null;
+  said.textContent = lacking ?? "";
+  const row = element(
+    "div",
+    { class: "row film", role: "group", "aria-label": "Files" },
+    save,
+    still,
+    said,
+  );
+  let [busy, goes] = [false, false];
+  const isBusy = () => busy || stage.saving !== null;
+
+  /** Does a job while nothing else can be changed, and offers its file. */
+  const make = async (job) => {
+    const others = [...root.children].filter((child) => child !== row);
+    others.forEach((child) => (child.inert = true));
+    // no counting aloud
+    said.setAttribute("aria-live", "off");
+    busy = true;
+    const words = await job().then(
+      (made) => (made ? saved(made) : "Stopped: no file."),
+      (error) => `Not saved: ${error.message}`,
+    );
+    busy = false;
+    said.setAttribute("aria-live", "polite");
+    said.textContent = words;
+    others.forEach((child) => (child.inert = false));
+  };
+  const told = (done, count) => {
+    said.textContent = `picture ${done} of ${count}`;
+    return goes;
+  };
+  save.addEventListener("click", async () => {
+    if (goes) {
+      goes = false;
+      return;
+    }
+    if (isBusy()) return;
+    const long = tooLong(clock);
+    if (long) {
+      said.textContent = long;
+      return;
+    }
+    goes = true;
+    save.textContent = "Stop";
+    await make(() => film(stage, clock, told));
+    goes = false;
+    save.textContent = "Save film";
+  });
+  still.addEventListener("click", () => {
+    if (!isBusy()) make(() => picture(stage, clock));
+  });
+  return row;
+}
+
+/** Offers a file, and says which. */
+function saved({ blob, name, seconds }) {
+  const link = element("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  const size = `${figures(blob.size / 1e6, 2)} MB`;
+  return `Saved ${name}, ${seconds ? `${figures(seconds, 3)} s, ` : ""}${size}`;
 }

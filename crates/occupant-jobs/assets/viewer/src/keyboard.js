@@ -1,4 +1,4 @@
-// Keys: space, arrows, home, end, + and −, 1 to 4.
+// Keys: space, arrows, home, end, + and −, 1 to 8 and 0.
 
 import { PRESETS } from "./eye.js";
 
@@ -10,6 +10,7 @@ export function listenToKeys(now, root = document) {
   root.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || isTaken(event)) return;
     const { clock, stage } = now();
+    if (stage?.saving) return;
     const act = action(event, clock, stage);
     if (!act) return;
     event.preventDefault();
@@ -43,6 +44,8 @@ function action(event, clock, stage) {
       return () => clock.shiftSpeed(1);
     case "-":
       return () => clock.shiftSpeed(-1);
+    case "0":
+      return stage && (() => stage.eye.look(stage.eye.preset));
     default: {
       const preset = PRESETS[Number(event.key) - 1];
       return stage && preset ? () => stage.eye.look(preset) : null;

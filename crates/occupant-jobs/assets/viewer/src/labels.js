@@ -14,6 +14,8 @@ export class Labels {
   constructor(place, actor, camera) {
     this.actor = actor;
     this.camera = camera;
+    /** Size of a picture that is saved, else that of the page. */
+    this.size = null;
     this.layer = element("div", { class: "labels", "aria-hidden": "true" });
     place.append(this.layer);
     this.shown = false;
@@ -39,7 +41,7 @@ export class Labels {
   /** Puts all labels where they belong now. */
   place() {
     if (!this.shown) return;
-    const size = [this.layer.clientWidth, this.layer.clientHeight];
+    const size = this.size ?? [this.layer.clientWidth, this.layer.clientHeight];
     this.taken = [];
     for (const { label, centre, group, surface } of this.surfaces) {
       const follows = surface.frame === "space" && !surface.bounded;
@@ -47,6 +49,13 @@ export class Labels {
       if (!label.hidden) this.put(label, centre.clone().applyMatrix4(group.matrixWorld), size);
     }
     this.placeContacts(size);
+  }
+
+  /** Those that are seen: text, and place of the upper left corner. */
+  seen() {
+    const all = [...this.surfaces.map(({ label }) => label), ...this.contacts];
+    const seen = this.shown ? all.filter((label) => !label.hidden) : [];
+    return seen.map((label) => ({ text: label.textContent, at: label.at }));
   }
 
   placeContacts(size) {
@@ -83,6 +92,7 @@ export class Labels {
     const left = Math.max(0, Math.min(x, width - wide));
     const top = this.free(left, y, wide);
     label.hidden = top === null;
+    label.at = [left, top];
     label.style.transform = `translate(${left.toFixed(1)}px, ${(top ?? y).toFixed(1)}px)`;
   }
 

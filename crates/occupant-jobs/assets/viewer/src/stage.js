@@ -15,9 +15,11 @@ import {
 } from "three";
 import { Actor } from "./actor.js";
 import { Resolution, drawsInSoftware } from "./resolution.js";
+import { hideHeads } from "./cameras.js";
 import { Eye } from "./eye.js";
 import { Labels } from "./labels.js";
 import { poseAt } from "./pose.js";
+import { listenToTabs } from "./tabs.js";
 
 /** How far behind the run before it each stands when they stand beside, m. */
 const BESIDE_M = 2;
@@ -46,8 +48,12 @@ export class Stage {
     place.append(this.canvas);
     this.scene = new Scene();
     this.light();
-    this.camera = new PerspectiveCamera(35, 1, 0.05, 200);
+    this.camera = new PerspectiveCamera();
     this.camera.up.set(0, 0, -1);
+    this.eye = new Eye(this.camera, this.canvas, () => this.draw());
+    this.scene.add(this.eye.carrier);
+    /** Size of pictures that are saved, while they are: nothing else is drawn then. */
+    this.saving = null;
     new ResizeObserver(() => this.resize()).observe(place);
     window
       .matchMedia("(prefers-color-scheme: dark)")
@@ -57,8 +63,8 @@ export class Stage {
     this.resize();
     this.show({});
     this.setOther(runs.length > 2 ? "beside" : "ghost");
-    this.eye.look("oblique");
     clock.listen(() => this.move());
+    listenToTabs((name) => this.eye.setOccupant(name));
   }
 
   /** Shows other runs from where the camera is. */
@@ -71,6 +77,7 @@ export class Stage {
     this.put(runs, clock);
     this.show({});
     if (runs.length !== count) this.setOther(runs.length > 2 ? "beside" : "ghost");
+    else this.eye.refit();
     clock.listen(() => this.move());
   }
 
@@ -82,8 +89,7 @@ export class Stage {
     this.actors.forEach((actor) => this.scene.add(actor.group));
     const greatest = Math.max(...this.actors.map((actor) => actor.arrows.greatest));
     this.actors.forEach((actor) => actor.arrows.setGreatest(greatest));
-    if (this.eye) this.eye.setActor(this.actors[0]);
-    else this.eye = new Eye(this.camera, this.canvas, this.actors[0], () => this.draw());
+    this.eye.setActors(this.actors);
     this.labels = new Labels(this.place, this.actors[0], this.camera);
   }
 
@@ -102,12 +108,31 @@ export class Stage {
   }
 
   resize() {
-    const { clientWidth: width, clientHeight: height } = this.place;
-    if (width === 0 || height === 0) return;
+    const { clientWidth, clientHeight } = this.place;
+    if (this.saving === null && clientWidth > 0 && clientHeight > 0)
+      this.setSize(clientWidth, clientHeight);
+    this.draw();
+  }
+
+  setSize(width, height) {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    this.draw();
+    this.eye.fitLens();
+  }
+
+  /** Begins pictures of a size in pixels for files; `restore` puts the page's own size back. */
+  save(size) {
+    this.saving = size;
+    this.eye.controls.enabled = false;
+    this.resolution.set(1);
+    this.setSize(...size);
+  }
+
+  restore() {
+    this.saving = null;
+    this.eye.controls.enabled = true;
+    this.resolution.set(this.resolution.full);
+    this.resize();
   }
 
   /** Changes what is shown: {surfaces: false}. */
@@ -162,14 +187,17 @@ export class Stage {
 
   /** Draws now. */
   render() {
+    const eye = this.eye.place();
+    for (const actor of this.actors) hideHeads(actor, eye);
     this.renderer.render(this.scene, this.camera);
   }
 
   draw() {
-    if (this.pending) return;
+    if (this.pending || this.saving !== null) return;
     this.pending = true;
     requestAnimationFrame((now) => {
       this.pending = false;
+      if (this.saving !== null) return;
       this.resolution.drawn(now);
       this.render();
       this.labels.place();

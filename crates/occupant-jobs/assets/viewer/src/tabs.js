@@ -13,6 +13,11 @@ export const own = (name) => (name ? { "data-occupant": name } : {});
 /** The occupant seen last: another run of the page that simulates shows the same one. */
 let chosen = null;
 
+const listeners = [];
+
+/** Calls `listener` at every choice with the name of the occupant that is seen. */
+export const listenToTabs = (listener) => listeners.push(listener);
+
 /** The row of tabs; none for a single occupant. */
 export function buildTabs(runs) {
   const names = occupantsOf(runs);
@@ -48,6 +53,7 @@ export function buildTabs(runs) {
 export function showOccupant(runs, name) {
   const names = occupantsOf(runs);
   chosen = names.includes(name) ? name : names.includes(chosen) ? chosen : names[0];
+  listeners.forEach((listener) => listener(chosen ?? ""));
   for (const part of document.querySelectorAll("[data-occupant]"))
     part.hidden = part.dataset.occupant !== chosen;
   for (const tab of document.querySelectorAll(".occupants [role=tab]")) {
