@@ -26,4 +26,10 @@ mod _occupant {
     use super::study::Study;
     #[pymodule_export]
     use super::trouble::OccupantError;
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
 }

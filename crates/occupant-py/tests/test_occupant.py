@@ -28,6 +28,11 @@ def run():
     return scenario.run()
 
 
+def test_the_version_is_that_of_the_package():
+    version = next(line for line in (ROOT / "Cargo.toml").read_text().splitlines() if line.startswith("version"))
+    assert occupant.__version__ == version.split('"')[1]
+
+
 def test_a_run_has_arrays_in_si_units(run):
     assert run.status == "completed"
     head = run["head.acceleration.resultant"]

@@ -7,6 +7,6 @@
 >>> run.measures["hic15"], run["head.acceleration.resultant"].max()
 """
 
-from ._occupant import LiveRun, OccupantError, Run, Scenario, Study
+from ._occupant import LiveRun, OccupantError, Run, Scenario, Study, __version__
 
-__all__ = ["LiveRun", "OccupantError", "Run", "Scenario", "Study"]
+__all__ = ["LiveRun", "OccupantError", "Run", "Scenario", "Study", "__version__"]

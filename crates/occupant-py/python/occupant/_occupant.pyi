@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+__version__: str
+
 class OccupantError(ValueError):
     """A scenario or study that is wrong, or a run that failed."""
 
