@@ -11,8 +11,8 @@ use occupant_jobs::sweep::stored::{MadeBy, open as open_study};
 /// Seal a run with its inputs in one HTML file, or verify such a file
 ///
 /// The page opens offline. It lists every value that was set, all files with their SHA-256 and the motion every 1/20 s, and
-/// carries them. The run is made again first: it is sealed only if the same bits come out. Limit 5 MB; a result file beyond
-/// that is left out, with the SHA-256 of every output in its place.
+/// carries them. The run is made again first: it is sealed only if the same bits come out. Limit 5 MB; results beyond that
+/// are left out, with the SHA-256 of every output in their place.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`; with --verify or --extract the sealed case
@@ -68,7 +68,7 @@ fn write(args: &Args) -> Result<Done, Failure> {
     deliver(&output, args.force, &case)?;
     if !holds_run {
         say(
-            "note: the result file is not in the case, which would be larger than 5 MB with it; the case has the SHA-256 of every output, and --verify --again compares them",
+            "note: the results are not in the case, which would be larger than 5 MB with them; it has the SHA-256 of every output, and --verify --again compares them",
         );
     }
     print(&format!("SHA-256   {}\nsize      {:.2} MB\n", sha256(&case), case.len() as f64 / 1e6))?;

@@ -18,6 +18,7 @@ mod press;
 mod recorder;
 pub mod records;
 pub mod scene;
+mod states;
 mod stored;
 pub mod topics;
 mod transforms;
@@ -28,6 +29,7 @@ use occupant_core::results::catalogue::{self, Message};
 
 pub use about::{About, Document};
 pub use recorder::{McapOptions, McapRecorder};
+pub use states::states;
 pub use stored::StoredRun;
 
 /// Compression of the chunks: none in a browser.

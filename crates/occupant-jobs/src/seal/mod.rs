@@ -20,13 +20,13 @@ use crate::base::{Failure, Units, file_name};
 use crate::report;
 use crate::sweep::Stored;
 use again::states;
-use occupant_files::mcap::StoredRun;
 use occupant_files::mcap::about::RESOLVED;
+use occupant_files::mcap::{self, StoredRun};
 use occupant_files::results::Results;
 use page::Listed;
 
-/// Name of the part with the results.
-const RUN: &str = "run.mcap";
+/// Name of the part with the results: the state at every output.
+const RUN: &str = "states.mcap";
 
 /// What is sealed with a run.
 #[derive(Default)]
@@ -41,8 +41,8 @@ pub struct Beside {
 pub struct Sealed {
     /// The file.
     pub bytes: Vec<u8>,
-    /// Whether it holds the result file. A case that would be too large with it goes without; it lists the SHA-256 of
-    /// every output.
+    /// Whether it holds the results. A case that would be too large with them goes without; it lists the SHA-256 of every
+    /// output.
     pub holds_run: bool,
 }
 
@@ -54,8 +54,10 @@ pub struct Sealed {
 pub fn seal(run: (&Path, &[u8]), build: &str, beside: Beside, units: Option<Units>) -> Result<Sealed, Failure> {
     let (path, bytes) = run;
     let results = Results::of_bytes(path, bytes)?;
-    let mut parts = vec![Part::new(RUN, bytes.to_vec()), states(&results.checkpoints)];
-    parts.extend(texts(&results, bytes)?);
+    let stored = StoredRun::read(bytes).map_err(Failure::plain)?;
+    let alone = mcap::states(&stored).map_err(|e| Failure::plain(format!("the states cannot be written: {e}")))?;
+    let mut parts = vec![Part::new(RUN, alone), states(&results.checkpoints)];
+    parts.extend(texts(&results, &stored));
     if let Same::No(why) = again(&parts)? {
         let found = format!("{} is not what this program computes: {why}", path.display());
         return Err(Failure::with_help(found, "seal the run with the program that made it, or run it again"));
@@ -74,14 +76,13 @@ pub fn seal(run: (&Path, &[u8]), build: &str, beside: Beside, units: Option<Unit
         pack::pack(&page, &page::section(&results, (&inputs, &sheet, study.as_ref()), &listed), parts)
     };
     let whole = pack(&parts, None)?;
-    let holds_run = whole.bytes.len() <= MOST_BYTES;
+    let holds_run = whole.bytes.len() <= MOST_BYTES && parts[0].can_be_unpacked();
     let packed = if holds_run { whole } else { pack(&parts[1..], Some(&parts[0]))? };
     Ok(Sealed { bytes: packed.checked()?, holds_run })
 }
 
 /// The scenario with its presets written out, the same as written, and the tables that it names.
-fn texts(results: &Results, bytes: &[u8]) -> Result<Vec<Part>, Failure> {
-    let stored = StoredRun::read(bytes).map_err(Failure::plain)?;
+fn texts(results: &Results, stored: &StoredRun) -> Vec<Part> {
     let own = results.run.get("scenario").map(String::as_str).unwrap_or_default();
     let scenario = stored.attachments.iter().filter_map(|(name, bytes)| match name.as_str() {
         RESOLVED => Some(Part::new(name, bytes.clone())),
@@ -89,7 +90,7 @@ fn texts(results: &Results, bytes: &[u8]) -> Result<Vec<Part>, Failure> {
         _ => None,
     });
     let tables = results.loaded.tables().into_iter().map(|(name, text)| Part::new(name, text.as_bytes().to_vec()));
-    Ok(scenario.chain(tables).collect())
+    scenario.chain(tables).collect()
 }
 
 /// Refuses names that two parts have, and those that would leave the folder they are put into.

@@ -39,6 +39,11 @@ impl Part {
         Part { name: name.to_owned(), bytes }
     }
 
+    /// Whether it is small enough to be unpacked again.
+    pub(super) fn can_be_unpacked(&self) -> bool {
+        self.bytes.len() as u64 <= MOST_UNPACKED
+    }
+
     /// Whether its name is a place below a folder, on every system.
     pub fn stays_inside(&self) -> bool {
         let is_below = |part| matches!(part, Component::Normal(_) | Component::CurDir);
@@ -133,7 +138,10 @@ fn too_large(size: usize, sections: &[Section]) -> Failure {
         MOST_BYTES / 1_000_000,
         sizes.join(", ")
     );
-    Failure::with_help(found, "leave out a film or an added file, or make the film shorter or smaller")
+    Failure::with_help(
+        found,
+        "leave out or shorten a film or an added file; a longer output.interval or an earlier time.end makes the page smaller",
+    )
 }
 
 /// A part in its envelope.

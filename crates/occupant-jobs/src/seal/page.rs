@@ -29,7 +29,8 @@ pub(super) struct Listed<'a> {
     pub left: Option<&'a Part>,
 }
 
-const LEFT: &str = "The result file is not in this case, which would be larger than 5 MB with it. states.csv has the SHA-256 of every output of it; `occupant seal CASE.html --verify --again` makes the run again and compares them. `occupant run resolved.toml` in the folder of `--extract` writes the results anew.";
+const STATES_ALONE: &str = "states.mcap holds the state at every output and all that the run needs to go on. The commands read it as a result file and compute every other number from it anew.";
+const LEFT: &str = "states.mcap is not in this case, which would be larger than 5 MB with it. states.csv has the SHA-256 of every output; `occupant seal CASE.html --verify --again` makes the run again and compares them. `occupant run resolved.toml` in the folder of `--extract` writes the results anew.";
 
 /// HTML of the section; texts of users are escaped.
 pub(super) fn section(
@@ -51,7 +52,7 @@ pub(super) fn section(
     html.text("h3", "Parts");
     let rows: Vec<Vec<Cell>> = listed.parts.iter().chain(listed.left).map(row_of_part).collect();
     html.table(&["part", "bytes", "SHA-256"], &rows);
-    listed.left.iter().for_each(|_| html.text("p class=\"note\"", LEFT));
+    html.text("p class=\"note\"", if listed.left.is_some() { LEFT } else { STATES_ALONE });
     study.iter().for_each(|study| say(&mut html, study));
     html.fold(&format!("Values that were set: {}", inputs.len()));
     let rows: Vec<Vec<Cell>> = inputs.iter().map(row_of_input).collect();
