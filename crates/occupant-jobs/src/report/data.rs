@@ -185,7 +185,8 @@ impl PageRecorder {
 
     /// The run on the page.
     pub fn run(self, model: &Model, summary: &Summary, told: Source, units: Units) -> Run {
-        let PageRecorder { motion, series, chosen, ride, mut impact, ground } = self;
+        let PageRecorder { mut motion, series, chosen, ride, mut impact, ground } = self;
+        motion.finish();
         let mut summary = summary.clone();
         impact.judge(&mut summary, model);
         let summary = &summary;

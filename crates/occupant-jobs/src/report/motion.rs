@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::array::Array;
 use occupant_files::mcap::scene::compartment::corners_m;
 
-/// Number of points of a line at every output.
+/// Number of points of a line whose course changes from output to output, and the most of any other.
 const LINE_POINTS: usize = 20;
 
 /// Moving parts: positions in m and forces in N, in vehicle axes.
@@ -38,6 +38,34 @@ struct MovingLine {
     count: usize,
     points: Array,
     force: Array,
+    /// Its own points, while it has as many at every output.
+    #[serde(skip)]
+    own: Option<(usize, Array)>,
+}
+
+impl MovingLine {
+    fn add(&mut self, line: Line) {
+        let floats = |points: &[Point3<f64>]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<_>>();
+        let count = line.points_m.len();
+        let is_first = self.count == 0;
+        self.own = if is_first { Some((count, Array::default())) } else { self.own.take() };
+        self.own = self.own.take().filter(|(own, _)| *own == count && count <= LINE_POINTS);
+        self.own.iter_mut().for_each(|(_, own)| own.float32(floats(&line.points_m)));
+        self.points.float32(floats(&evenly(&line.points_m)));
+        self.force.float32([line.force_n]);
+        (self.name, self.count) = (line.name, LINE_POINTS);
+    }
+}
+
+impl Motion {
+    /// Leaves each line its own points where their number is constant.
+    pub fn finish(&mut self) {
+        for line in &mut self.lines {
+            if let Some((count, points)) = line.own.take() {
+                (line.count, line.points) = (count, points);
+            }
+        }
+    }
 }
 
 /// Contacts; those of output i are from `start[i]` to `start[i + 1]`. Forces act on the body.
@@ -75,11 +103,7 @@ impl Recorder for Motion {
         lines.extend(sample.sections().into_iter().map(closed));
         lines.extend(moving(sample).into_iter().map(closed));
         self.lines.resize_with(lines.len(), MovingLine::default);
-        for (moving, line) in self.lines.iter_mut().zip(lines) {
-            moving.points.float32(evenly(&line.points_m).iter().flat_map(|p| [p.x, p.y, p.z]));
-            moving.force.float32([line.force_n]);
-            (moving.name, moving.count) = (line.name, LINE_POINTS);
-        }
+        self.lines.iter_mut().zip(lines).for_each(|(moving, line)| moving.add(line));
         self.contacts.add(sample);
         Ok(Flow::Continue)
     }
@@ -153,6 +177,28 @@ fn evenly(course: &[Point3<f64>]) -> Vec<Point3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Lines of one element with so many points at each output: what the page gets of it.
+    fn kept(counts: &[usize]) -> (usize, usize) {
+        let mut line = MovingLine::default();
+        for n in counts {
+            let points_m = (0..*n).map(|i| Point3::new(i as f64, 0.0, 0.0)).collect();
+            line.add(Line { name: String::new(), points_m, force_n: 0.0 });
+        }
+        let mut motion = Motion { lines: vec![line], ..Motion::default() };
+        motion.finish();
+        let text = serde_json::to_string(&motion.lines[0].points).unwrap();
+        (motion.lines[0].count, (text.len() - 2) / 4 * 3 / 12)
+    }
+
+    #[test]
+    fn a_line_keeps_its_points_where_their_number_is_constant() {
+        assert_eq!(kept(&[2, 2, 2]), (2, 6));
+        assert_eq!(kept(&[5; 4]), (5, 20));
+        for changing in [&[2, 5, 2][..], &[30, 30, 30], &[5, 5, 2]] {
+            assert_eq!(kept(changing), (20, 60));
+        }
+    }
 
     #[test]
     fn courses_of_any_length_get_as_many_points() {

@@ -17,6 +17,8 @@ import { SLACK, TAUT } from "./colors.js";
 const WIDTH_M = 0.046;
 /** How much of a belt shows through the body. */
 const THROUGH = 0.3;
+/** Bend below which a course is straight, of its length. */
+const STRAIGHT = 1e-4;
 
 export class Belts {
   constructor(run) {
@@ -92,7 +94,10 @@ class Ribbon {
     const first = new Vector3().fromArray(this.course, 0);
     const last = new Vector3().fromArray(this.course, 3 * (this.count - 1));
     const middle = new Vector3().fromArray(this.course, 3 * (this.count >> 1));
+    const course = new Vector3().subVectors(last, first);
     const across = first.sub(middle).cross(last.sub(middle));
+    // a straight part lies flat, or along the car where it is upright
+    if (across.length() < STRAIGHT * course.lengthSq()) across.crossVectors(course, flat(course));
     across.setLength(0.5 * WIDTH_M);
     const out = this.places.array;
     for (let i = 0; i < this.count; i++) {
@@ -105,6 +110,10 @@ class Ribbon {
     this.places.needsUpdate = true;
   }
 }
+
+const UPRIGHT = 0.9;
+const flat = (course) =>
+  Math.abs(course.z) > UPRIGHT * course.length() ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
 
 /** Two triangles between each two points of the course. */
 function quads(count) {
