@@ -171,7 +171,7 @@ impl Impact {
 
 /// Whether a rule, by its name, is for impacts of this direction.
 fn fits(rule: &str, direction: Direction) -> bool {
-    let blow = RULES.iter().find(|own| own.name() == rule).and_then(|own| own.blow());
+    let blow = LIMITS.iter().find(|limit| limit.rule.name() == rule).and_then(|limit| limit.rule.blow());
     blow.is_none_or(|blow| Direction::Blow(blow) == direction)
 }
 
@@ -286,9 +286,8 @@ mod tests {
         assert!(!fits("FMVSS 208", side) && fits("UN R95", side) && fits("severity index (historical)", side));
         assert!(!fits("FMVSS 208", Direction::Rollover) && fits("FMVSS 208", Direction::Blow(Blow::Front)));
         assert!(limits(Quantity::Hic36, Blow::Side, Dummy::Es2).count() > 0);
-        assert!(
-            fits("UN R127 (headform)", Direction::Blow(Blow::OnFoot)) && !fits("UN R94", Direction::Blow(Blow::OnFoot))
-        );
+        let on_foot = Direction::Blow(Blow::OnFoot);
+        assert!(fits("UN R127 (headform)", on_foot) && !fits("UN R127 (headform)", side) && !fits("UN R94", on_foot));
     }
 
     #[test]

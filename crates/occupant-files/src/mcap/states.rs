@@ -33,7 +33,8 @@ pub fn states(run: &StoredRun) -> McapResult<Vec<u8>> {
         })?;
     }
     let mut channel = Schemas::default().add(&mut writer, &checkpoint())?;
-    let start_s = run.checkpoints.first().map_or(0.0, |first| first.time_s);
+    // times count from the start of the run, which a resumed file does not hold
+    let start_s = run.run.get("start_s").and_then(|start| start.parse().ok()).unwrap_or(0.0);
     for output in &run.checkpoints {
         writer.write_to_known_channel(&channel.next(nanoseconds(output.time_s, start_s)), &encoded(output))?;
     }
