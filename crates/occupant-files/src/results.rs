@@ -26,6 +26,14 @@ use super::scenario::{format_of, stored};
 use super::steps;
 use crate::base::{Failure, ending, input_file, program, quoted, sha256};
 
+/// Index of the time nearest to another, the later of two; of the first or the last beyond them. Of no times 0.
+pub fn nearest(times_s: &[f64], time_s: f64) -> usize {
+    let after = times_s.partition_point(|t| *t < time_s).min(times_s.len().saturating_sub(1));
+    let before = after.saturating_sub(1);
+    let off_s = |i: usize| times_s.get(i).map_or(f64::INFINITY, |t| (t - time_s).abs());
+    if off_s(before) < off_s(after) { before } else { after }
+}
+
 /// A recorded run.
 pub struct Results {
     /// The file.

@@ -18,7 +18,7 @@ mod solid;
 use super::flags::history::seconds;
 use crate::base::progress::{bar, counted};
 use crate::base::{Failure, deliver_and, ending, file_name, note, publish, refuse_input, say, with_word};
-use occupant_files::results::Results;
+use occupant_files::results::{Results, nearest};
 use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
 use occupant_pictures::Format;
 use occupant_pictures::body::Snapshot;
@@ -387,13 +387,6 @@ fn outputs(results: &Results, wanted: &[f64]) -> Result<Vec<usize>, Failure> {
         Ok(nearest(&at, time))
     };
     wanted.iter().map(index).collect()
-}
-
-/// Index of the time nearest to another; of the first or the last beyond them.
-fn nearest(at: &[f64], time: f64) -> usize {
-    let after = at.partition_point(|t| *t < time).min(at.len() - 1);
-    let before = after.saturating_sub(1);
-    if (time - at[before]).abs() < (at[after] - time).abs() { before } else { after }
 }
 
 /// Every 40 ms, or every 80, 200, 400, … in a long run.

@@ -14,7 +14,7 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::Model;
 use occupant_core::results::sample::Sample;
 use occupant_core::vehicle::{Attitude, PathCursor, VehiclePose};
-use occupant_files::results::Results;
+use occupant_files::results::{Results, nearest};
 
 /// Name of the part with the sheet.
 pub(super) const MOTION: &str = "motion.csv";
@@ -147,12 +147,7 @@ fn attitude(rotation: &Matrix3<f64>, near: &Attitude) -> Attitude {
 fn rows(times_s: &[f64]) -> Vec<usize> {
     let (Some(start), Some(end)) = (times_s.first(), times_s.last()) else { return Vec::new() };
     let count = ((end - start) / INTERVAL_S + 1e-9).floor() as usize;
-    let nearest = |wanted: f64| {
-        let after = times_s.partition_point(|time| *time < wanted).min(times_s.len() - 1);
-        let before = after.saturating_sub(1);
-        if wanted - times_s[before] < times_s[after] - wanted { before } else { after }
-    };
-    let mut rows: Vec<usize> = (0..=count).map(|i| nearest(start + i as f64 * INTERVAL_S)).collect();
+    let mut rows: Vec<usize> = (0..=count).map(|i| nearest(times_s, start + i as f64 * INTERVAL_S)).collect();
     rows.push(times_s.len() - 1);
     rows.dedup();
     rows

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use occupant_files::base::{input_file, output_file::refuse_input, sha256};
-use occupant_files::results::Results;
+use occupant_files::results::{Results, nearest};
 use occupant_pictures::body::Snapshot;
 use occupant_pictures::film::Frame;
 use occupant_pictures::scene::{MOST_GHOSTS, Photograph, Shown, photograph};
 
-use super::{moments, nearest, origin};
+use super::{moments, origin};
 use crate::base::{Failure, ending, file_name, note};
 
 /// How much later than asked for a picture of a test may be and still count, s: less than a name can tell.
