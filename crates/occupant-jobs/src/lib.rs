@@ -42,6 +42,7 @@ pub mod fit;
 pub mod import;
 pub mod instruments;
 pub mod judged;
+pub mod keys;
 pub mod optimise;
 pub mod plot;
 pub mod print;

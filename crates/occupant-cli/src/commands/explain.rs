@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 
 use crate::base::{Failure, talk};
 use crate::commands::schema::Document;
+use occupant_jobs::keys::Key;
 
 /// Explain the keys of a scenario or study: meaning, unit, example
 ///
@@ -36,171 +37,89 @@ pub(crate) fn explain(args: &Args) -> Result<(), Failure> {
     }
     let found = match &args.key {
         None => vec![root],
-        Some(path) => root.find(path)?,
+        Some(path) => find(&root, path)?,
     };
-    let texts: Vec<String> = found.iter().map(Key::text).collect();
+    let texts: Vec<String> = found.iter().map(text).collect();
     talk::print(&texts.join("\n"))
 }
 
-/// A key of the schema.
-#[derive(Clone)]
-struct Key<'a> {
-    path: String,
-    /// Variant of its section that it belongs to, such as `kind = "pulse"`.
-    variant: Option<String>,
-    needed: bool,
-    root: &'a Json,
-    /// Its own schema entry.
-    own: &'a Json,
-    /// Schema of the table that contains it.
-    table: &'a Json,
+/// Keys at a path, where names and `*` match the user's own names; else all keys with that name; else all that may
+/// have that value.
+fn find<'a>(root: &Key<'a>, path: &str) -> Result<Vec<Key<'a>>, Failure> {
+    let all = root.all();
+    // as --set writes it: the key that may be that word
+    if let Some((key, word)) = path.split_once('=') {
+        let word = word.trim().trim_matches('"');
+        let found = find(root, word)?;
+        let own: Vec<Key> = found.iter().filter(|of| of.path == key.trim()).cloned().collect();
+        return Ok(if own.is_empty() { found } else { own });
+    }
+    let found: Vec<Key> = all.iter().filter(|key| key.is_at(path)).cloned().collect();
+    let is_one = !path.contains('.');
+    let word = path.split('[').next().unwrap_or(path);
+    let is_named = |key: &&Key| is_one && key.name() == word;
+    // the section before keys elsewhere: `belt` is looked for among belts first
+    let is_section = |key: &&Key| is_one && key.path.strip_suffix('s') == Some(word);
+    let found = if found.is_empty() {
+        all.iter().filter(is_section).chain(all.iter().filter(is_named)).cloned().collect()
+    } else {
+        found
+    };
+    let is_word = |key: &&Key| names(key.schema()).contains(&format!("\"{path}\""));
+    let found: Vec<Key> = if found.is_empty() { all.iter().filter(is_word).cloned().collect() } else { found };
+    if let (true, Some((_, key))) = (found.is_empty(), ALSO.iter().find(|(word, _)| is_called(path, word))) {
+        return find(root, key);
+    }
+    let result = RESULTS.iter().find(|(words, _)| words.iter().any(|word| is_called(path, word)));
+    if let (true, Some((_, help))) = (found.is_empty(), result) {
+        return Err(Failure::with_help(format!("`{path}` is a result, not a key"), help));
+    }
+    if found.is_empty() {
+        let names: Vec<&str> = all.iter().map(Key::name).collect();
+        let hint = did_you_mean(path.rsplit('.').next().unwrap_or_default(), &names, '`');
+        let help = hint.unwrap_or_else(|| "`occupant explain` lists the sections".to_owned());
+        return Err(Failure::with_help(format!("no key `{path}`"), &help));
+    }
+    Ok(found)
 }
 
-impl<'a> Key<'a> {
-    fn root(schema: &'a Json) -> Self {
-        Key { path: String::new(), variant: None, needed: true, root: schema, own: schema, table: schema }
-    }
-
-    /// Its schema, with references resolved.
-    fn schema(&self) -> &'a Json {
-        let name = self.own["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/"));
-        name.map_or(self.own, |name| &self.root["$defs"][name])
-    }
-
-    /// Its description in one line; for a variant, that of the table.
-    fn meaning(&self) -> String {
-        let words = |schema: &'a Json| schema["description"].as_str();
-        let of_kind = || words(self.table).filter(|_| self.own.get("const").is_some());
-        words(self.own).or_else(|| words(self.schema())).or_else(of_kind).unwrap_or_default().replace('\n', " ")
-    }
-
-    /// Tables that it may hold, each with the key that distinguishes it: one, unless the section has variants.
-    fn tables(&self) -> Vec<(Option<String>, &'a Json)> {
-        let schema = self.schema();
-        let Some(kinds) = schema["oneOf"].as_array() else {
-            return vec![(None, schema)];
-        };
-        let kind = |table: &'a Json| {
-            let (key, of) = table["properties"].as_object()?.iter().find(|(_, of)| of.get("const").is_some())?;
-            Some((Some(format!("{key} = {}", of["const"])), table))
-        };
-        kinds.iter().filter_map(kind).collect()
-    }
-
-    /// The keys below it.
-    fn below(&self) -> Vec<Key<'a>> {
-        let join = |key: &str| if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
-        let mut keys = Vec::new();
-        for (variant, table) in self.tables() {
-            let needed = |key: &str| table["required"].as_array().is_some_and(|keys| keys.iter().any(|k| k == key));
-            for (key, own) in table["properties"].as_object().into_iter().flatten() {
-                let variant = variant.clone();
-                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, own, table });
-            }
-            if table["additionalProperties"].is_object() {
-                let own = &table["additionalProperties"];
-                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, own, table });
-            }
+/// Type of its value, as text.
+fn kind(key: &Key) -> String {
+    let schema = key.schema();
+    let mut words = match (schema["x-dimension"].as_str(), names(schema)) {
+        (Some(dimension), _) => quantity(dimension, schema),
+        (None, names) if !names.is_empty() => format!("one of {}", names.join(", ")),
+        _ => plain(key),
+    };
+    for (limit, sign) in [("minimum", "at least"), ("exclusiveMinimum", "more than"), ("maximum", "at most")] {
+        if let Some(value) = schema.get(limit) {
+            let _infallible = write!(words, ", {sign} {value}");
         }
-        let items = &self.schema()["items"];
-        if items.is_object() {
-            let item = Key { path: format!("{}[]", self.path), own: items, ..self.clone() };
-            keys.extend(item.below());
-        }
-        keys
     }
+    words
+}
 
-    /// All keys, each before those below it.
-    fn all(&self) -> Vec<Key<'a>> {
-        let below = self.below();
-        below.iter().flat_map(|key| std::iter::once(key.clone()).chain(key.all())).collect()
+fn text(key: &Key) -> String {
+    let below = key.below();
+    let mut text = String::new();
+    if !key.path.is_empty() {
+        let variant = key.variant.as_ref().map_or(String::new(), |variant| format!("   ({variant})"));
+        let needed = if key.needed { "needed; " } else { "" };
+        text = format!("{}{variant}\n    {}\n    {needed}{}\n", key.path, key.meaning(), kind(key));
+        for (name, meaning) in choices(key.schema()) {
+            let _infallible = writeln!(text, "      {name}: {meaning}");
+        }
     }
-
-    /// Keys at a path, where names and `*` match the user's own names; else all keys with that name; else all that may
-    /// have that value.
-    fn find(&self, path: &str) -> Result<Vec<Key<'a>>, Failure> {
-        let all = self.all();
-        // as --set writes it: the key that may be that word
-        if let Some((key, word)) = path.split_once('=') {
-            let word = word.trim().trim_matches('"');
-            let found = self.find(word)?;
-            let own: Vec<Key> = found.iter().filter(|of| of.path == key.trim()).cloned().collect();
-            return Ok(if own.is_empty() { found } else { own });
+    let mut variant = None;
+    for own in &below {
+        if own.variant != variant {
+            variant.clone_from(&own.variant);
+            let _infallible = writeln!(text, "\n  {}", variant.as_deref().unwrap_or_default());
         }
-        let wanted: Vec<&str> = path.split('.').map(bare).collect();
-        let is_at = |key: &&Key| {
-            let own: Vec<&str> = key.path.split('.').map(bare).collect();
-            own.len() == wanted.len() && own.iter().zip(&wanted).all(|(own, word)| own == word || *own == "NAME")
-        };
-        let is_named = |key: &&Key| wanted.len() == 1 && key.name() == wanted[0];
-        let found: Vec<Key> = all.iter().filter(is_at).cloned().collect();
-        // the section before keys elsewhere: `belt` is looked for among belts first
-        let is_section = |key: &&Key| wanted.len() == 1 && key.path.strip_suffix('s') == Some(wanted[0]);
-        let found = if found.is_empty() {
-            all.iter().filter(is_section).chain(all.iter().filter(is_named)).cloned().collect()
-        } else {
-            found
-        };
-        let is_word = |key: &&Key| names(key.schema()).contains(&format!("\"{path}\""));
-        let found: Vec<Key> = if found.is_empty() { all.iter().filter(is_word).cloned().collect() } else { found };
-        if let (true, Some((_, key))) = (found.is_empty(), ALSO.iter().find(|(word, _)| is_called(path, word))) {
-            return self.find(key);
-        }
-        let result = RESULTS.iter().find(|(words, _)| words.iter().any(|word| is_called(path, word)));
-        if let (true, Some((_, help))) = (found.is_empty(), result) {
-            return Err(Failure::with_help(format!("`{path}` is a result, not a key"), help));
-        }
-        if found.is_empty() {
-            let names: Vec<&str> = all.iter().map(Key::name).collect();
-            let hint = did_you_mean(wanted.last().unwrap_or(&""), &names, '`');
-            let help = hint.unwrap_or_else(|| "`occupant explain` lists the sections".to_owned());
-            return Err(Failure::with_help(format!("no key `{path}`"), &help));
-        }
-        Ok(found)
+        let needed = if own.needed { ", needed" } else { "" };
+        let _infallible = writeln!(text, "  {}: {}{needed}\n      {}", own.path, kind(own), own.meaning());
     }
-
-    fn name(&self) -> &str {
-        bare(self.path.rsplit('.').next().unwrap_or_default())
-    }
-
-    /// Type of its value, as text.
-    fn kind(&self) -> String {
-        let schema = self.schema();
-        let mut words = match (schema["x-dimension"].as_str(), names(schema)) {
-            (Some(dimension), _) => quantity(dimension, schema),
-            (None, names) if !names.is_empty() => format!("one of {}", names.join(", ")),
-            _ => plain(schema, self.root),
-        };
-        for (limit, sign) in [("minimum", "at least"), ("exclusiveMinimum", "more than"), ("maximum", "at most")] {
-            if let Some(value) = schema.get(limit) {
-                let _infallible = write!(words, ", {sign} {value}");
-            }
-        }
-        words
-    }
-
-    fn text(&self) -> String {
-        let below = self.below();
-        let mut text = String::new();
-        if !self.path.is_empty() {
-            let variant = self.variant.as_ref().map_or(String::new(), |variant| format!("   ({variant})"));
-            let needed = if self.needed { "needed; " } else { "" };
-            text = format!("{}{variant}\n    {}\n    {needed}{}\n", self.path, self.meaning(), self.kind());
-            for (name, meaning) in choices(self.schema()) {
-                let _infallible = writeln!(text, "      {name}: {meaning}");
-            }
-        }
-        let mut variant = None;
-        for key in &below {
-            if key.variant != variant {
-                variant.clone_from(&key.variant);
-                let _infallible = writeln!(text, "\n  {}", variant.as_deref().unwrap_or_default());
-            }
-            let needed = if key.needed { ", needed" } else { "" };
-            let _infallible = writeln!(text, "  {}: {}{needed}\n      {}", key.path, key.kind(), key.meaning());
-        }
-        text
-    }
+    text
 }
 
 /// Synonyms of keys.
@@ -242,11 +161,6 @@ fn is_called(said: &str, word: &str) -> bool {
     said == word || said.strip_suffix('s') == Some(word)
 }
 
-/// A step of a path without its index.
-fn bare(step: &str) -> &str {
-    step.split('[').next().unwrap_or(step)
-}
-
 /// Allowed words, in quotes.
 fn names(schema: &Json) -> Vec<String> {
     let listed = schema["enum"].as_array().into_iter().flatten().map(Json::to_string);
@@ -274,18 +188,19 @@ fn quantity(dimension: &str, schema: &Json) -> String {
 }
 
 /// Type names of plain values.
-fn plain(schema: &Json, root: &Json) -> String {
+fn plain(key: &Key) -> String {
+    let schema = key.schema();
     match schema["type"].as_str() {
         Some("string") => "text".into(),
         Some("boolean") => "true or false".into(),
         Some("integer") => "whole number".into(),
         Some("number") => "number".into(),
         Some("array") => {
-            let item = Key { own: &schema["items"], ..Key::root(root) };
+            let item = kind(&key.item());
             match (&schema["minItems"], &schema["maxItems"]) {
-                (least, most) if least == most && !least.is_null() => format!("list of {least}: {}", item.kind()),
-                (Json::Null, _) => format!("list: {}", item.kind()),
-                (least, _) => format!("list of {least} or more: {}", item.kind()),
+                (least, most) if least == most && !least.is_null() => format!("list of {least}: {}", item),
+                (Json::Null, _) => format!("list: {}", item),
+                (least, _) => format!("list of {least} or more: {}", item),
             }
         }
         _ if schema["additionalProperties"].is_object() => "tables with names that you choose".into(),
@@ -309,7 +224,7 @@ fn page(root: &Key, of: Document) -> String {
             let needed = if key.needed { ", needed" } else { "" };
             let variant = key.variant.as_ref().map_or(String::new(), |variant| format!("`{variant}`"));
             let cell = |words: String| words.replace('|', "\\|");
-            let (kind, meaning) = (cell(key.kind()), cell(key.meaning()));
+            let (kind, meaning) = (cell(kind(&key)), cell(key.meaning()));
             let _infallible = writeln!(text, "| `{}` | {variant} | {kind}{needed} | {meaning} |", key.name());
         }
     }

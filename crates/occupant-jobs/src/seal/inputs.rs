@@ -1,7 +1,8 @@
 //! Every value that the scenario or a change sets, with its line and the value that holds without it.
 
+use crate::keys::Key;
 use occupant_files::results::Results;
-use occupant_scenario::{Draft, Format, rival_path};
+use occupant_scenario::{Draft, Format, rival_path, schema};
 use placed_text::{Document, Node, Step, Value, children, follow, parse_path, to_text};
 
 /// A value that was set: its key, the value, where it stands, and what would hold without it, if a preset has one.
@@ -11,6 +12,8 @@ pub(super) struct Input {
     pub value: String,
     pub place: String,
     pub default: String,
+    /// What the key means, and what holds if it is absent.
+    pub meaning: String,
 }
 
 /// Keys that choose what stands below or beside them: without them there is no preset to speak of.
@@ -26,9 +29,29 @@ pub(super) fn inputs(results: &Results) -> Vec<Input> {
     for (path, value) in changes.lines().filter_map(|change| change.split_once('=')) {
         let (path, value) = (path.trim().to_owned(), value.trim().to_owned());
         let before = found.iter().rfind(|own| own.path == path).map(|own| own.value.clone());
-        found.push(Input { path, value, place: "--set".to_owned(), default: before.unwrap_or_default() });
+        let (place, default) = ("--set".to_owned(), before.unwrap_or_default());
+        found.push(Input { path, value, place, default, meaning: String::new() });
     }
+    explain(&mut found);
     found
+}
+
+/// Adds the meanings of the keys; of keys that a kind of section has, those of the kind that is set.
+fn explain(inputs: &mut [Input]) {
+    let keys = Key::root(schema()).all();
+    let set: Vec<(String, String)> = inputs.iter().map(|own| (own.path.clone(), own.value.clone())).collect();
+    for input in inputs {
+        let section = input.path.rsplit_once('.').map_or("", |(section, _)| section);
+        let is_set = |key: &&Key<'_>| {
+            let kind = key.variant.as_deref().and_then(|variant| variant.split_once(" = "));
+            kind.is_none_or(|(of, word)| {
+                set.iter().any(|(path, value)| *path == format!("{section}.{of}") && value == word)
+            })
+        };
+        let own = keys.iter().filter(|key| key.is_at(&input.path));
+        let own = own.clone().find(is_set).or(own.clone().next());
+        input.meaning = own.map(Key::meaning).unwrap_or_default();
+    }
 }
 
 /// The values of a text, each beside that of the presets alone; the text is expanded once for numbers and lists, once for
@@ -43,7 +66,7 @@ fn written(text: &str, format: Format, name: &str) -> Option<Vec<Input>> {
         let value = document.sources.slice(node.span).to_owned();
         let of = &presets[usize::from(is_word(node))];
         let default = if chooses(steps) { String::new() } else { preset(of, steps) };
-        found.push(Input { path: to_text(steps), value, place, default });
+        found.push(Input { path: to_text(steps), value, place, default, meaning: String::new() });
     });
     Some(found)
 }
@@ -117,5 +140,8 @@ end = 0.1
         assert!(!mass.default.is_empty() && !mass.default.contains("5 kg"), "{}", mass.default);
         // nothing gives it but the scenario
         assert_eq!(of("time.end").default, "");
+        let mut found = [of("body.segments.head.mass")];
+        explain(&mut found);
+        assert!(found[0].meaning.contains("ass"), "{}", found[0].meaning);
     }
 }

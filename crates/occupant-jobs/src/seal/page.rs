@@ -56,7 +56,7 @@ pub(super) fn section(
     study.iter().for_each(|study| say(&mut html, study));
     html.fold(&format!("Values that were set: {}", inputs.len()));
     let rows: Vec<Vec<Cell>> = inputs.iter().map(row_of_input).collect();
-    html.table(&["key", "value", "where", "preset or earlier value"], &rows);
+    html.table(&["key", "value", "where", "preset or earlier value", "meaning; what holds if absent"], &rows);
     html.unfold();
     let texts = listed
         .parts
@@ -92,7 +92,9 @@ fn row_of_part(part: &Part) -> Vec<Cell> {
 }
 
 fn row_of_input(input: &Input) -> Vec<Cell> {
-    [&input.path, &input.value, &input.place, &input.default].map(|text| Cell::Words(text.clone())).to_vec()
+    [&input.path, &input.value, &input.place, &input.default, &input.meaning]
+        .map(|text| Cell::Words(text.clone()))
+        .to_vec()
 }
 
 fn row_of_sheet(row: &Row) -> Vec<Cell> {
