@@ -114,6 +114,7 @@ const ROOMS: [(&str, &[&str]); 11] = [
             "print",
             "risk",
             "judged",
+            "keys",
             "report",
             "run",
             "extend",
