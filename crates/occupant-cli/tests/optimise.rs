@@ -129,6 +129,36 @@ fn several_goals_are_weighed_by_their_scales() {
 }
 
 #[test]
+fn a_front_shows_what_one_goal_costs_of_the_other() {
+    // the head goes ahead by Δv·(t − T/2), the body has ½mΔv²: for each Δv the longest pulse is best
+    let study = OF_FREE.replace("budget = 160", "budget = 160\nfront = 6");
+    let goals = "[[optimise.goals]]\nminimise = \"head_excursion.forward\"\nper = \"100 mm\"\n\
+         [[optimise.goals]]\nmaximise = \"energy.greatest_kinetic\"\nper = \"100 J\"\n";
+    let folder = free(&format!("{study}{goals}"));
+    let told = done(folder.path(), &["optimise", "study.toml", "-o", "out"]);
+    assert!(told.contains("front") && told.contains("candidates: report.html"), "{told}");
+    let found = found(folder.path(), "out");
+    let all: Vec<[f64; 3]> = found["front"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| [&c["values"][0], &c["measures"][0], &c["measures"][1]].map(number))
+        .collect();
+    assert!(all.len() >= 6, "{}", all.len());
+    // mass of the body from any of them
+    let mass = 2.0 * all[0][2] / (all[0][0] * all[0][0]);
+    let close = |[dv, ahead, energy]: &&[f64; 3]| {
+        *ahead < 1.03 * dv * 0.07 && (energy / (0.5 * mass * dv * dv) - 1.0).abs() < 1e-6
+    };
+    let close: Vec<&[f64; 3]> = all.iter().filter(close).collect();
+    assert!(close.len() >= 6, "{} of {}: {all:?}", close.len(), all.len());
+    let speeds = close.iter().fold([f64::INFINITY, 0.0_f64], |[low, high], [dv, ..]| [low.min(*dv), high.max(*dv)]);
+    assert!(speeds[0] < 0.8 && speeds[1] > 3.7, "{speeds:?}");
+    let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert!(page.contains("Front between the goals"));
+}
+
+#[test]
 fn two_parameters_end_where_a_grid_does() {
     let folder = folder_with(BELTS);
     let at = folder.path();
@@ -231,8 +261,10 @@ fn wrong_studies_are_refused_before_anything_is_run() {
         ),
         (minimise.replace("head_excursion.forward", "wall_time_s"), "there is no measure `wall_time_s`"),
         (minimise.replace("budget = 160", "budget = 99999999999"), "at most 10000000"),
-        (minimise.replace("budget = 160", "budget = 9999999"), "at most 10000000 runs"),
+        (minimise.replace("budget = 160", "budget = 10000000"), "at most 10000000 runs"),
         (minimise.replace("budget = 160", "tolerance = 0.0"), "tolerance"),
+        (minimise.replace("budget = 160", "front = 5"), "a front of 1 goals"),
+        (minimise.replace("budget = 160", "front = 1"), "optimise.front"),
         (minimise.replace("budget = 160", "quantile = 0.9"), "without an ensemble"),
         (minimise.replace("head_excursion.forward", "hic15"), "no value of `hic15` to divide by"),
         (format!("{minimise}\n[ensemble]\nmembers = 1\n"), "members"),

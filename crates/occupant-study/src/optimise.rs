@@ -19,8 +19,10 @@ pub struct Optimise {
     pub quantile: f64,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Candidates of the search.
+    /// Candidates in all.
     pub budget: u64,
+    /// Points of the front between several goals; 0 for none.
+    pub front: u64,
     /// Candidates of the first generations.
     pub population: usize,
     /// Goals that differ by less count as converged.

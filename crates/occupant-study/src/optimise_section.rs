@@ -28,8 +28,11 @@ pub struct OptimiseSection {
     /// if absent.
     #[schemars(extend("minimum" = 0.5, "maximum" = 1))]
     pub quantile: Option<f64>,
-    /// Candidates of the search, each a run or those of an ensemble; 400 per parameter if absent. The check of the
-    /// neighbours at the end needs more.
+    /// With several goals: the number of points of the front between them to look for, with half of the budget. A point of the
+    /// front is a candidate than which no other is better in one goal and as good in all others. None if absent.
+    #[schemars(extend("minimum" = 2, "maximum" = 100))]
+    pub front: Option<u64>,
+    /// Candidates in all, each a run or those of an ensemble; 60 per parameter if absent, twice as many with `front`.
     #[schemars(extend("minimum" = 1))]
     pub budget: Option<u64>,
     /// Candidates per generation of the first descent; 16, or 4 + 3 ln n if that is more, if absent.

@@ -27,6 +27,8 @@ pub(super) enum Purpose {
     SensorErrors = 8,
     /// Points of a search.
     Search = 16,
+    /// Coordinates and descents of a search with a model.
+    Model = 17,
 }
 
 /// 64 random bits for an address; `round` tells apart several draws of one dimension.

@@ -259,7 +259,7 @@ fn evaluations(records: &[Record]) -> Evaluations {
     for record in records {
         match record.stage {
             None => {}
-            Some(Stage::Sample | Stage::Descent { .. }) => count.search += 1,
+            Some(Stage::Sample | Stage::Model { .. } | Stage::Descent { .. }) => count.search += 1,
             Some(Stage::Refinement) => count.refinement += 1,
             Some(Stage::Scan | Stage::Shape | Stage::Profile) => count.intervals += 1,
         }

@@ -139,7 +139,12 @@ impl Measures {
 
     /// The weighted sum of the goals.
     pub fn goal(&self, values: &[f64]) -> f64 {
-        self.goals.iter().fold(0.0, |sum, (at, factor)| sum + factor * values[*at])
+        self.terms(values).iter().sum()
+    }
+
+    /// Each goal times its weight over its divisor.
+    fn terms(&self, values: &[f64]) -> Vec<f64> {
+        self.goals.iter().map(|(at, factor)| factor * values[*at]).collect()
     }
 
     /// Goal and limits of a candidate.
@@ -149,7 +154,7 @@ impl Measures {
         }
         let values = self.values(parts);
         let beyond = self.limits.iter().map(|limit| limit.beyond(values[limit.value])).collect();
-        Trial { goal: self.goal(&values), beyond, is_refused: has_caveats }
+        Trial { goal: self.goal(&values), parts: self.terms(&values), beyond, is_refused: has_caveats }
     }
 
     /// The score of a candidate, in the order of the ranking.

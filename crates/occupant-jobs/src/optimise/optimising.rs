@@ -73,7 +73,7 @@ impl Optimising {
             refuse(all)
         })?;
         let title = text.section.title.clone().unwrap_or_default();
-        let samples = study.members().saturating_mul(most_candidates(&optimise, bounds.len()));
+        let samples = study.members().saturating_mul(most_candidates(&optimise));
         if samples > MOST_RUNS {
             let found = format!("up to {samples} runs, with {} of each candidate", study.members());
             let problem = text.complaint("optimise.budget", found, format!("at most {MOST_RUNS} runs"), None);

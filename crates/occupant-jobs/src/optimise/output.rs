@@ -25,7 +25,7 @@ pub fn write(
     records: &[Record],
 ) -> Result<Optimum, Failure> {
     let (folder, sums) = place;
-    let values = of.values(&answer.best.at);
+    let values = of.values(&answer.found.point.at);
     let written = numbers(&of.experiment, &values).map_err(Failure::broke_off)?;
     let caveats = again(of, answer, records, &written).map_err(Failure::broke_off)?;
     let result = Optimum::of(of, answer, records, written, &caveats);

@@ -1,5 +1,6 @@
 //! The page of an optimisation: one HTML file that needs no network and no script.
 
+use super::result::Candidate;
 use super::{Optimising, Optimum, text};
 use crate::base::Units;
 use crate::base::text_table::NONE;
@@ -14,6 +15,8 @@ use occupant_study::search::Rank;
 const SIZE: [f64; 2] = [820.0, 300.0];
 /// Largest number of dots of a kind.
 const MOST_DOTS: usize = 2000;
+/// Largest number of rows of the table of a front.
+const MOST_ROWS: usize = 40;
 
 /// The complete file.
 pub fn page(of: &Optimising, result: &Optimum, records: &[Record]) -> String {
@@ -36,7 +39,15 @@ pub fn page(of: &Optimising, result: &Optimum, records: &[Record]) -> String {
         "Each parameter was moved alone: the change of the goal, and limits or caveats that keep the neighbour from winning.",
     );
     html.text("h2", "Best runs");
-    best(&mut html, of, result);
+    candidates(&mut html, of, result, &result.best);
+    if !result.front.is_empty() {
+        html.text("h2", "Front");
+        html.text("p class=\"remark\"", "No allowed candidate is better in one goal and as good in all others.");
+        if let Some(figure) = front(of, result, records) {
+            html.raw(&format!("<figure>{}</figure>\n", inline(&figure, SIZE)));
+        }
+        candidates(&mut html, of, result, &thinned(&result.front));
+    }
     html.text("h2", "History");
     html.raw(&format!("<figure>{}</figure>\n", inline(&history(of, records), SIZE)));
     let mut origin = vec![("optimised by", result.program.clone())];
@@ -51,7 +62,35 @@ fn rows<const N: usize>(html: &mut Html, heads: &[&str; N], numbers: std::ops::R
     html.table(heads, &rows);
 }
 
-fn best(html: &mut Html, of: &Optimising, result: &Optimum) {
+/// At most as many candidates as are readable, the ends included.
+fn thinned(all: &[Candidate]) -> Vec<Candidate> {
+    let count = all.len().min(MOST_ROWS);
+    (0..count).map(|i| all[i * (all.len() - 1) / (count - 1).max(1)].clone()).collect()
+}
+
+/// Allowed candidates and the front in the plane of the first two goals; none with one goal.
+fn front(of: &Optimising, result: &Optimum, records: &[Record]) -> Option<Figure> {
+    let [(x, _), (y, _)] = of.measures.goals.get(..2)?.try_into().ok()?;
+    let told = [x, y].map(|value| Units::default().told(of.measures.unit(value)).shown);
+    let place = |values: &[f64]| [values[x] / told[0].0, values[y] / told[1].0];
+    let allowed = records.iter().filter(|record| matches!(of.trial(record).rank(), Rank::Allowed(_)));
+    let all = allowed.map(|record| place(&of.measures.values(&record.parts))).collect();
+    let front: Vec<[f64; 2]> = result.front.iter().map(|candidate| place(&candidate.measures)).collect();
+    let axis = |value: usize, told: &(f64, String)| Axis::of(of.measures.name(value), told.1.clone());
+    Some(Figure {
+        title: "Front between the goals".to_owned(),
+        x: axis(x, &told[0]),
+        y: axis(y, &told[1]),
+        curves: vec![
+            Curve::new("allowed", Style::dots("#c9c9c9", 3.0), thin(all)),
+            Curve::new("front", Style::dots("#d55e00", 4.0), front),
+        ],
+        limits: Vec::new(),
+        empty: "no candidate is allowed".to_owned(),
+    })
+}
+
+fn candidates(html: &mut Html, of: &Optimising, result: &Optimum, list: &[Candidate]) {
     let mut heads = vec!["candidate".to_owned(), "goal".to_owned()];
     let with_unit = |name: &str, unit: &str| if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") };
     heads.extend(result.parameters.iter().map(|p| with_unit(&p.name, &p.shown.0)));
@@ -59,7 +98,7 @@ fn best(html: &mut Html, of: &Optimising, result: &Optimum) {
     let values = 0..of.measures.uses.len();
     heads.extend(values.clone().map(|value| with_unit(&of.measures.name(value), &told(value).1)));
     heads.push("remark".to_owned());
-    let row = |c: &super::result::Candidate| {
+    let row = |c: &Candidate| {
         let mut cells = vec![Cell::Number(c.index.to_string()), Cell::Number(short(c.goal))];
         let parameters = c.values.iter().zip(&result.parameters).map(|(x, p)| Cell::Number(short(x / p.shown.1)));
         cells.extend(parameters);
@@ -70,7 +109,12 @@ fn best(html: &mut Html, of: &Optimising, result: &Optimum) {
         cells
     };
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-    html.table(&heads, &result.best.iter().map(row).collect::<Vec<_>>());
+    html.table(&heads, &list.iter().map(row).collect::<Vec<_>>());
+}
+
+fn thin(dots: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let every = dots.len().div_ceil(MOST_DOTS).max(1);
+    dots.into_iter().step_by(every).collect()
 }
 
 /// Goal of each candidate, and the best so far.
@@ -104,10 +148,6 @@ fn history(of: &Optimising, records: &[Record]) -> Figure {
         let shows = |[_, goal]: &[f64; 2]| (low - room..=high + room).contains(goal);
         [&mut within, &mut other, &mut best].into_iter().for_each(|dots| dots.retain(shows));
     }
-    let thin = |dots: Vec<[f64; 2]>| {
-        let every = dots.len().div_ceil(MOST_DOTS).max(1);
-        dots.into_iter().step_by(every).collect::<Vec<_>>()
-    };
     let curves = vec![
         Curve::new("beyond a limit or with caveats", Style::dots("#c9c9c9", 3.0), thin(other)),
         Curve::new("allowed", Style::dots("#0072b2", 3.5), thin(within)),

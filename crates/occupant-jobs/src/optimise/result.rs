@@ -2,7 +2,7 @@
 //! of threads.
 
 use occupant_study::ApplyChoice;
-use occupant_study::search::{Rank, Stage, Trial};
+use occupant_study::search::{Rank, Stage, Trial, front};
 use serde::Serialize;
 
 use super::optimising::base_name;
@@ -51,6 +51,9 @@ pub struct Optimum {
     pub parameters: Vec<Tuned>,
     /// The best candidates, the best first.
     pub best: Vec<Candidate>,
+    /// The front between several goals, if the study asks for it: the allowed candidates than which no other is better in one goal
+    /// and as good in all others, in the order of their first goals.
+    pub front: Vec<Candidate>,
     /// Values in the scenario that is written.
     pub written: Vec<Fitted>,
     /// Numbers of candidates.
@@ -148,7 +151,7 @@ pub struct Neighbour {
 }
 
 /// One of the best candidates.
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 pub struct Candidate {
     /// Its number in the history.
     pub index: usize,
@@ -189,11 +192,11 @@ impl Optimum {
     /// Assembles the result; `written` are the values of the best candidate, `caveats` what its run says.
     pub fn of(of: &Optimising, answer: &Answer, records: &[Record], written: Vec<Fitted>, caveats: &[String]) -> Self {
         let (study, candidates) = (&of.manifest.texts[0], counts(of, records));
-        let best = best(of, records);
+        let (best, front) = (best(of, records), front_of(of, records));
         let after = record_of(answer, records).map_or_else(Vec::new, |record| of.measures.values(&record.parts));
         let before = answer.before.reason.is_none().then(|| of.measures.values(&answer.before.parts));
         let members = of.runs();
-        let is_allowed = matches!(answer.trial.rank(), Rank::Allowed(_));
+        let is_allowed = matches!(answer.found.trial.rank(), Rank::Allowed(_));
         let mut result = Optimum {
             program: of.manifest.program.clone(),
             title: of.manifest.title.clone(),
@@ -205,11 +208,12 @@ impl Optimum {
             members,
             quantile: (members > 1).then_some(of.optimise.quantile),
             is_allowed,
-            goal: Pair { before: before.as_ref().map(|v| of.measures.goal(v)), after: answer.trial.goal },
+            goal: Pair { before: before.as_ref().map(|v| of.measures.goal(v)), after: answer.found.trial.goal },
             goals: goals(of, before.as_deref(), &after),
             constraints: limits(&of.measures, before.as_deref(), &after),
             parameters: (0..of.bounds.len()).map(|i| parameter(of, answer, i)).collect(),
             best,
+            front,
             written,
             candidates,
             warnings: of.warnings.clone(),
@@ -222,7 +226,7 @@ impl Optimum {
 
 /// The record of the best candidate.
 pub fn record_of<'r>(answer: &Answer, records: &'r [Record]) -> Option<&'r Record> {
-    records.iter().find(|record| record.at.as_ref() == Some(&answer.best.at))
+    records.iter().find(|record| record.at.as_ref() == Some(&answer.found.point.at))
 }
 
 fn goals(of: &Optimising, before: Option<&[f64]>, after: &[f64]) -> Vec<GoalPart> {
@@ -256,7 +260,7 @@ fn limits(measures: &Measures, before: Option<&[f64]>, after: &[f64]) -> Vec<Lim
 
 fn parameter(of: &Optimising, answer: &Answer, i: usize) -> Tuned {
     let (parameter, bounds) = (&of.parameters()[i], of.bounds[i]);
-    let u = answer.best.at[i];
+    let u = answer.found.point.at[i];
     let neighbour = |side: usize| {
         let trial = answer.neighbours.as_ref()?.get(i)?[side].as_ref()?;
         let step = if side == 0 { -STEP } else { STEP };
@@ -295,18 +299,30 @@ fn best(of: &Optimising, records: &[Record]) -> Vec<Candidate> {
     let mut order: Vec<(usize, &Record)> = tried.collect();
     order.sort_by(|a, b| a.1.score.total_cmp(&b.1.score).then(a.0.cmp(&b.0)));
     order.dedup_by(|a, b| a.1.at == b.1.at);
-    let candidate = |(index, record): (usize, &Record)| {
-        let Trial { goal, beyond, .. } = of.trial(record);
-        Candidate {
-            index,
-            goal,
-            values: record.at.as_ref().map_or_else(Vec::new, |at| of.values(at)),
-            measures: of.measures.values(&record.parts),
-            caveats: record.caveats.clone(),
-            is_within: beyond.iter().all(|g| *g <= 0.0),
-        }
-    };
-    order.into_iter().take(LISTED).map(candidate).collect()
+    order.into_iter().take(LISTED).map(|(index, record)| candidate(of, index, record)).collect()
+}
+
+fn candidate(of: &Optimising, index: usize, record: &Record) -> Candidate {
+    let Trial { goal, beyond, .. } = of.trial(record);
+    Candidate {
+        index,
+        goal,
+        values: record.at.as_ref().map_or_else(Vec::new, |at| of.values(at)),
+        measures: of.measures.values(&record.parts),
+        caveats: record.caveats.clone(),
+        is_within: beyond.iter().all(|g| *g <= 0.0),
+    }
+}
+
+/// The front; empty if the study asks for none.
+fn front_of(of: &Optimising, records: &[Record]) -> Vec<Candidate> {
+    if of.optimise.front == 0 {
+        return Vec::new();
+    }
+    // the base scenario is none of the candidates
+    let tried: Vec<(usize, &Record)> = records.iter().enumerate().filter(|(_, r)| r.at.is_some()).collect();
+    let trials: Vec<Trial> = tried.iter().map(|(_, record)| of.trial(record)).collect();
+    front(&trials).into_iter().map(|i| candidate(of, tried[i].0, tried[i].1)).collect()
 }
 
 fn counts(of: &Optimising, records: &[Record]) -> Counts {
@@ -314,7 +330,7 @@ fn counts(of: &Optimising, records: &[Record]) -> Counts {
     for record in records {
         match record.stage {
             None => {}
-            Some(Stage::Sample | Stage::Descent { .. }) => count.search += 1,
+            Some(Stage::Sample | Stage::Model { .. } | Stage::Descent { .. }) => count.search += 1,
             Some(_) => count.neighbours += 1,
         }
         if let Some(reason) = &record.reason {
@@ -335,7 +351,7 @@ fn counts(of: &Optimising, records: &[Record]) -> Counts {
 fn remarks(of: &Optimising, answer: &Answer, result: &Optimum) -> Vec<String> {
     let mut all = Vec::new();
     let count = &result.candidates;
-    match answer.trial.rank() {
+    match answer.found.trial.rank() {
         Rank::Beyond(_) => {
             all.push("no candidate is within all limits: the best is the one that exceeds them least".to_owned())
         }
@@ -357,9 +373,9 @@ fn remarks(of: &Optimising, answer: &Answer, result: &Optimum) -> Vec<String> {
     if answer.neighbours.is_none() {
         all.push("the budget ended while neighbours were still better: a larger one finds a better optimum".to_owned());
     }
-    let descents = &answer.global.descents;
-    if descents.len() == 1 && descents[0].ending == occupant_study::search::Ending::Budget {
-        all.push("the only descent did not converge: a larger budget may find a better optimum".to_owned());
+    let is_settled = answer.found.descents.iter().any(|d| d.ending != occupant_study::search::Ending::Budget);
+    if answer.found.regions == 0 && !is_settled {
+        all.push("the search had not settled when its budget ended: a larger one may find a better optimum".to_owned());
     }
     if of.runs() > 1 {
         all.push(format!(

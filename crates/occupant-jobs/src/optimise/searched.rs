@@ -1,7 +1,7 @@
 //! The search from its first candidate to the neighbours of the best.
 
 use occupant_study::Optimise;
-use occupant_study::search::{Descents, Global, Point, Rank, Stage, Trial, descend_within, lower};
+use occupant_study::search::{Descents, Found, Rank, Stage, Trial, lower, search_within};
 
 use super::Optimising;
 use crate::base::Failure;
@@ -11,26 +11,28 @@ use crate::search::{Evaluator, Objective, Record};
 pub const STEP: f64 = 0.02;
 /// The same while the search still moves to better ones.
 const STEPS: [f64; 3] = [0.02, 0.005, 0.00125];
-/// Least number of times that all neighbours are looked at, if each time one is better.
+/// Number of times that all neighbours are looked at, if each time one is better.
 const LOOKS: u64 = 8;
+/// One of this many candidates is kept for them at most.
+const KEPT: u64 = 4;
 
-/// Largest number of candidates of a search in `n` parameters, with the base scenario.
-pub fn most_candidates(optimise: &Optimise, n: usize) -> u64 {
-    let looks = LOOKS * 2 * n as u64;
+/// Largest number of candidates of a search, with the base scenario.
+pub fn most_candidates(optimise: &Optimise) -> u64 {
     // at least one generation is computed
-    1 + optimise.budget.max(optimise.population as u64) + optimise.budget.max(looks)
+    1 + optimise.budget.max(optimise.population as u64)
+}
+
+/// Candidates kept for the neighbours in `n` parameters.
+fn kept(budget: u64, n: usize) -> u64 {
+    (LOOKS * 2 * n as u64).min(budget / KEPT)
 }
 
 /// The best candidate and its neighbours.
 pub struct Answer {
     /// The base scenario.
     pub before: Record,
-    /// The descents; their values are those of the Lagrangian.
-    pub global: Global,
-    /// The best candidate.
-    pub best: Point,
-    /// What it shows.
-    pub trial: Trial,
+    /// The best candidate, what it shows, and all others of the search.
+    pub found: Found,
     /// What the neighbours below and above in each parameter show, none beyond a bound; nothing if the budget ended while a
     /// neighbour was still better.
     pub neighbours: Option<Vec<[Option<Trial>; 2]>>,
@@ -46,7 +48,7 @@ pub fn search(of: &Optimising, evaluator: &mut Evaluator<'_, Optimising>) -> Res
         start: of.start(),
         next: Vec::new(),
         seed: of.optimise.seed,
-        evaluations: of.optimise.budget,
+        evaluations: of.optimise.budget - kept(of.optimise.budget, of.bounds.len()),
         population: of.optimise.population,
         tolerance: of.optimise.tolerance,
     };
@@ -55,20 +57,20 @@ pub fn search(of: &Optimising, evaluator: &mut Evaluator<'_, Optimising>) -> Res
         evaluator.scores(stage, points)?;
         Ok(evaluator.records[from..].iter().map(|record| of.trial(record)).collect())
     };
-    let (global, best, trial) = descend_within(&how, &mut evaluate)?;
-    let mut found = (best, trial);
-    let mut left = how.evaluations.max(LOOKS * 2 * how.start.len() as u64);
+    let mut found = search_within(&how, of.optimise.front, &mut evaluate)?;
+    let mut best = (found.point, found.trial);
+    let mut left = of.optimise.budget.saturating_sub(found.tried.points.len() as u64);
     let mut looks = STEPS.iter().copied().chain([STEP]).peekable();
     let neighbours = loop {
-        let (centre, step) = (found.0.clone(), looks.peek().copied().unwrap_or(STEP));
+        let (centre, step) = (best.0.clone(), looks.peek().copied().unwrap_or(STEP));
         let places = around(&centre.at, step);
         let points: Vec<Vec<f64>> = places.iter().flatten().flatten().cloned().collect();
         let Some(rest) = left.checked_sub(points.len() as u64) else { break None };
         left = rest;
         let trials = evaluate(Stage::Scan, &points)?;
-        lower(&mut found, &points, &trials);
+        lower(&mut best, &points, &trials);
         // the last look shows the neighbours of what is reported
-        if found.0 == centre {
+        if best.0 == centre {
             _ = looks.next();
             if looks.peek().is_none() {
                 let mut trials = trials.into_iter();
@@ -77,11 +79,11 @@ pub fn search(of: &Optimising, evaluator: &mut Evaluator<'_, Optimising>) -> Res
             }
         }
     };
-    let (best, trial) = found;
-    if let Rank::Failed = trial.rank() {
+    (found.point, found.trial) = best;
+    if let Rank::Failed = found.trial.rank() {
         return Err(evaluator.none_could_be_run());
     }
-    Ok(Answer { before, global, best, trial, neighbours })
+    Ok(Answer { before, found, neighbours })
 }
 
 /// The neighbours of a point below and above in each coordinate, this far away; none beyond a bound.

@@ -37,11 +37,15 @@ pub fn head(result: &Optimum) -> Vec<(&'static str, String)> {
             parts.push(format!("{n} {what}"));
         }
     }
-    vec![
+    let mut lines = vec![
         ("optimum", format!("{} of {}", result.study.file, result.scenario)),
         ("goal", format!("{}, before {before}", short(result.goal.after))),
         ("candidates", parts.join("; ")),
-    ]
+    ];
+    if !result.front.is_empty() {
+        lines.push(("front", format!("{} candidates: report.html, optimum.json", result.front.len())));
+    }
+    lines
 }
 
 /// A row for each measure of the goal and for each limit: name, base, optimum, unit, what is wanted of it.

@@ -45,6 +45,7 @@ fn rows<O: Objective>(objective: &O, records: &[Record]) -> Vec<Row> {
         let (stage, _) = words_of(record.stage);
         let counted = match record.stage {
             Some(Stage::Descent { number, generation }) => [number, generation].map(|n| n as f64),
+            Some(Stage::Model { region, round }) => [region, round].map(|n| n as f64),
             _ => [f64::NAN; 2],
         };
         let number = |x: f64| if x.is_nan() { Cell::Absent } else { Cell::Number(x) };

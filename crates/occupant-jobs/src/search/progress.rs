@@ -72,6 +72,7 @@ pub fn words_of(stage: Option<Stage>) -> (&'static str, String) {
         Some(Stage::Descent { number, generation }) => {
             ("search", format!("descent {}, generation {}", number + 1, generation + 1))
         }
+        Some(Stage::Model { region, round }) => ("model", format!("region {}, round {}", region + 1, round + 1)),
         Some(Stage::Refinement) => ("refinement", "refinement".to_owned()),
         Some(Stage::Scan) => ("scan", "each parameter alone".to_owned()),
         Some(Stage::Shape) => ("shape", "curvature".to_owned()),

@@ -1,6 +1,6 @@
 //! The `[optimise]` of a study: goals and constraints that make sense; their numbers once the units are known.
 
-use super::fit::{BUDGET, TOLERANCE, population};
+use super::fit::{TOLERANCE, population};
 use super::{Binder, Purpose};
 use crate::optimise::{Constraint, Goal, Optimise};
 use crate::optimise_section::{GoalSection, OptimiseSection};
@@ -10,6 +10,11 @@ use occupant_scenario::{Diagnostics, Draft, Resolver};
 use occupant_units::unit::Unit;
 use placed_text::Value;
 
+/// Default budget per parameter.
+const BUDGET: u64 = 60;
+/// Points of a front, and the goals that it can have.
+const FRONT: std::ops::RangeInclusive<u64> = 2..=100;
+const MOST_GOALS: usize = 4;
 /// Default quantile of an ensemble.
 const QUANTILE: f64 = 0.95;
 
@@ -33,6 +38,7 @@ impl StudyText {
         let goals = binder.goals(section);
         let constraints = binder.constraints(section);
         binder.quantile(section);
+        binder.front(section, goals.len());
         let n = self.section.parameters.len();
         let optimise = Optimise {
             goals,
@@ -40,7 +46,8 @@ impl StudyText {
             allow_caveats: section.allow_caveats.clone(),
             quantile: section.quantile.unwrap_or(QUANTILE),
             seed: self.section.seed.unwrap_or(0),
-            budget: section.budget.unwrap_or(BUDGET * n.max(1) as u64),
+            budget: section.budget.unwrap_or(BUDGET * n.max(1) as u64 * if section.front.is_some() { 2 } else { 1 }),
+            front: section.front.unwrap_or(0),
             population: population(section.population, n),
             tolerance: section.tolerance.unwrap_or(TOLERANCE),
         };
@@ -118,6 +125,19 @@ impl Binder<'_> {
             constraints.push(constraint);
         }
         constraints
+    }
+
+    fn front(&mut self, section: &OptimiseSection, goals: usize) {
+        let Some(front) = section.front else { return };
+        if !FRONT.contains(&front) {
+            let expected = format!("a whole number from {} to {}", FRONT.start(), FRONT.end());
+            self.error("optimise.front", front.to_string(), &expected, None);
+        }
+        if !(2..=MOST_GOALS).contains(&goals) {
+            let hint = "[[optimise.goals]] for each".to_owned();
+            let expected = format!("2 to {MOST_GOALS} goals");
+            self.error("optimise.front", format!("a front of {goals} goals"), &expected, Some(hint));
+        }
     }
 
     fn quantile(&mut self, section: &OptimiseSection) {

@@ -12,8 +12,10 @@ mod bounds;
 mod cma;
 mod constrained;
 mod descents;
+mod modelled;
 mod profile;
 mod quadratic;
+mod radial;
 mod refine;
 mod scan;
 mod shape;
@@ -22,8 +24,9 @@ use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 pub use bounds::fold;
 pub use cma::{Cma, Ending};
-pub use constrained::{Rank, Trial, Try, descend_within, lower};
+pub use constrained::{Found, Rank, Trial, Try, front, lower, search_within};
 pub use descents::{Descent, Descents, Global, descend};
+pub use modelled::Tried;
 pub use profile::{End, Profiles, profile};
 pub use refine::refine;
 pub use scan::{Reach, scan};
@@ -37,6 +40,13 @@ mod tests;
 pub enum Stage {
     /// Points spread over the whole cube before the first descent.
     Sample,
+    /// A round of candidates that a model of the earlier ones proposes, both counted from 0.
+    Model {
+        /// Number of the region.
+        region: usize,
+        /// Number of the round.
+        round: usize,
+    },
     /// A generation of a global descent, both counted from 0.
     Descent {
         /// Number of the descent.
