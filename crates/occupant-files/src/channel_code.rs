@@ -18,6 +18,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use crash_measures::signal::ChannelClass;
+use occupant_core::body::Segment;
+use occupant_core::forces::chain::{Chain, Node, Site};
 use occupant_core::model::Model;
 use occupant_core::results::channel::Channel;
 
@@ -30,8 +32,8 @@ pub struct Code([u8; 16]);
 pub struct Place {
     /// Main and fine locations 1 and 2, eight characters.
     pub location: &'static str,
-    /// Fine location 3 of webbing; that of the dummy if absent.
-    pub webbing: Option<&'static str>,
+    /// Fine location 3, such as a point of a belt; that of the dummy if absent.
+    pub third: Option<&'static str>,
     /// Physical dimension.
     pub dimension: &'static str,
     /// Direction: X, Y, Z, R of a resultant, or 0.
@@ -62,7 +64,7 @@ impl Code {
     /// Code of a dictionary position.
     pub fn new(place: &Place, seat: char, dummy: &str, class: Option<ChannelClass>) -> Option<Self> {
         let position = if place.of_vehicle { '0' } else { seat };
-        let third = if place.of_vehicle { "00" } else { place.webbing.unwrap_or(dummy) };
+        let third = if place.of_vehicle { "00" } else { place.third.unwrap_or(dummy) };
         let filter = class.map_or('0', ChannelClass::mme_letter);
         format!("1{position}{}{third}{}{}{filter}", place.location, place.dimension, place.direction).parse().ok()
     }
@@ -105,20 +107,84 @@ impl Code {
 
 /// Dictionary position of a model's channel; none if the dictionary has none.
 pub fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
-    let Some(rest) = channel.name.strip_prefix("belt.") else {
-        return place_of_name(&channel.name);
+    let Some((kind, rest)) = channel.name.split_once('.') else { return None };
+    let setup = model.setup();
+    let is_first =
+        |names: &mut dyn Iterator<Item = &String>, name: &str| names.next().is_some_and(|first| first == name);
+    let beside = |location, third, dimension, direction| {
+        Some(Place { location, third: Some(third), dimension, direction, of_vehicle: false, sign: 1.0 })
     };
-    let name = rest.strip_suffix(".force")?;
+    match (kind, rest.rsplit_once('.')) {
+        ("belt", Some((name, "force"))) => beside("SEBE0000", loop_point(model, name)?, "FO", '0'),
+        ("strap", Some((name, "force"))) => beside("SEBE0000", strap_point(model, name)?, "FO", '0'),
+        // the dictionary tells bags and columns of a seat not apart
+        ("bag", Some((name, "pressure"))) if is_first(&mut setup.bags.iter().map(|bag| &bag.name), name) => {
+            beside("AIRB0000", "00", "PR", '0')
+        }
+        ("column", Some((name, what))) if is_first(&mut setup.columns.iter().map(|column| &column.name), name) => {
+            let dimension = [("stroke", "DS"), ("force", "FO")].into_iter().find(|(of, _)| *of == what)?.1;
+            beside("STCO0000", "00", dimension, 'X')
+        }
+        _ => place_of_name(&channel.name),
+    }
+}
+
+/// Webbing point (fine location 3) of a loop, by the part of the body that it goes round.
+fn loop_point(model: &Model, name: &str) -> Option<&'static str> {
     let round = model.named("belt").into_iter().find(|one| one.name == name)?.sphere?;
-    let segment = model.body().spheres.get(round).map(|s| s.segment);
-    let (segment, marks) = (segment?, model.body().tree.landmarks());
-    let webbing = match segment {
-        _ if Some(segment) == marks.pelvis => Some("B6"),
-        _ if model.body().tree.is_trunk(segment) => Some("B3"),
-        _ => return None,
+    let (segment, tree) = (model.body().spheres.get(round)?.segment, &model.body().tree);
+    match segment {
+        _ if Some(segment) == tree.landmarks().pelvis => Some("B6"),
+        _ if tree.is_trunk(segment) => Some("B3"),
+        _ => None,
+    }
+}
+
+/// What a node of webbing rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    /// The vehicle.
+    Anchor,
+    Pelvis,
+    /// The body above the pelvis: chest or shoulder.
+    Chest,
+}
+
+/// Webbing point (fine location 3) of a strap: B1 at the retractor, B3 and B4 above and below the chest, B5 and B6 at the inner and
+/// outer side of the pelvis. The inner side is that of the buckle, which both sections share.
+fn strap_point(model: &Model, name: &str) -> Option<&'static str> {
+    let chain = model.setup().chains.iter().find(|chain| chain.straps.iter().any(|strap| strap == name))?;
+    let number = chain.straps.iter().position(|strap| strap == name)?;
+    let last = chain.nodes.len().checked_sub(1)?;
+    let parts = |i: &usize| *i == 0 || *i == last || chain.nodes[*i].parts();
+    let ends: Vec<usize> = (0..=last).filter(parts).collect();
+    let [from, to] = [ends.get(number)?, ends.get(number + 1)?].map(|i| &chain.nodes[*i]);
+    match [from, to].map(|node| part_of(model, node)) {
+        [Part::Anchor, Part::Anchor] => (number == 0 && chain.device.reel.is_some()).then_some("B1"),
+        [Part::Anchor, Part::Chest] => Some(if is_beside(model, chain, from, Part::Pelvis) { "B4" } else { "B3" }),
+        [Part::Chest, Part::Anchor] => Some(if is_beside(model, chain, to, Part::Pelvis) { "B4" } else { "B3" }),
+        [Part::Anchor, Part::Pelvis] => Some(if is_beside(model, chain, from, Part::Chest) { "B5" } else { "B6" }),
+        [Part::Pelvis, Part::Anchor] => Some(if is_beside(model, chain, to, Part::Chest) { "B5" } else { "B6" }),
+        _ => None,
+    }
+}
+
+fn part_of(model: &Model, node: &Node) -> Part {
+    let segment = match &node.site {
+        Site::Vehicle(..) => return Part::Anchor,
+        Site::Segment(segment, ..) | Site::Track(segment, _) => Some(*segment),
+        Site::Sphere(sphere) => model.body().spheres.get(*sphere).map(|sphere| sphere.segment.index()),
     };
-    let place = Place { location: "SEBE0000", webbing, dimension: "FO", direction: '0', of_vehicle: false, sign: 1.0 };
-    Some(place)
+    let pelvis = model.body().tree.landmarks().pelvis.map(Segment::index);
+    if segment == pelvis { Part::Pelvis } else { Part::Chest }
+}
+
+/// Whether webbing of the same belt leads from a node to a part of the body.
+fn is_beside(model: &Model, chain: &Chain, node: &Node, wanted: Part) -> bool {
+    let parts = model.setup().chains.iter().filter(|other| other.belt == chain.belt);
+    let pairs = parts.flat_map(|chain| chain.nodes.windows(2));
+    let is = |one: &Node, other: &Node| one.name == node.name && part_of(model, other) == wanted;
+    pairs.into_iter().any(|pair| is(&pair[0], &pair[1]) || is(&pair[1], &pair[0]))
 }
 
 /// Webbing points (fine location 3) of a belt with this name.
@@ -176,7 +242,7 @@ fn place_of_name(name: &str) -> Option<Place> {
     // a deflection is inward, the sternum's way along X is not
     let is_against = (turned && matches!(direction, 'Y' | 'Z')) || dimension == "DS";
     let sign = if is_against { -1.0 } else { 1.0 };
-    Some(Place { location, webbing: None, dimension, direction, of_vehicle, sign })
+    Some(Place { location, third: None, dimension, direction, of_vehicle, sign })
 }
 
 #[cfg(test)]

@@ -97,6 +97,30 @@ fn a_filtered_resultant_is_that_of_filtered_components() {
     assert!(about.contains("\"filter\": \"CFC 180\"") && about.contains("ISO 6487"), "{about}");
 }
 
+/// Points of a three-point belt, in the order of its webbing: retractor, above and below the chest, inner and outer lap.
+#[test]
+fn an_iso_mme_test_has_the_webbing_the_bag_and_the_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/airbag-driver.toml");
+    let short = ["--set", "time.end='20 ms'", "-o", "a.mcap", "-q"];
+    well(folder.path(), &[&["run", scenario][..], &short].concat());
+    well(folder.path(), &["export", "a.mcap", "-o", "T1.mme", "--interval", "1 ms"]);
+    let list = std::fs::read_to_string(folder.path().join("T1/Channel/T1.chn")).unwrap();
+    for (code, channel) in [
+        ("11SEBE0000B1FO00", "strap.driver.reel_d_ring.force"),
+        ("11SEBE0000B3FO00", "strap.driver.d_ring_shoulder.force"),
+        ("11SEBE0000B4FO00", "strap.driver.shoulder_buckle.force"),
+        ("11SEBE0000B5FO00", "strap.driver.buckle_right_wing.force"),
+        ("11SEBE0000B6FO00", "strap.driver.left_wing_sill.force"),
+        ("11AIRB000000PR00", "bag.driver.pressure"),
+        ("11STCO000000DSX0", "column.column.stroke"),
+        ("11STCO000000FOX0", "column.column.force"),
+    ] {
+        assert!(list.contains(&format!("{code} / {channel}\n")), "{code} {channel}: {list}");
+    }
+    assert!(!list.contains("right_wing_left_wing"));
+}
+
 #[test]
 fn an_iso_mme_test_has_codes_units_and_j211_signs() {
     let folder = tempfile::tempdir().unwrap();
