@@ -120,6 +120,7 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         csv: args.csv || (plan.study.csv && shard.is_whole()),
         folder: Folder::at(output),
         engine: args.engine.engine()?,
+        kernel: args.engine.kernel.clone(),
         interrupt: listen("stopping; press Ctrl-C again to stop at once"),
         restart: args.restart,
         show: progress::show(args.quiet),

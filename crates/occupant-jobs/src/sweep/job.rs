@@ -8,7 +8,7 @@ use occupant_study::engine::Engine;
 use super::progress::Progress;
 use super::simulation::is_kept;
 use super::stored::sha256_of;
-use super::words::{judged, tell, tell_damaged, warn_unlocked};
+use super::words::{indices, judged, tell, tell_damaged, warn_unlocked};
 use super::{Plan, Simulation, kept, results};
 use crate::base::{Done, Failure, Interrupt, Show, Units, quoted, say};
 use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWriter, Problem, Shard};
@@ -33,6 +33,8 @@ pub struct Sweep {
     pub units: Units,
     /// Engine.
     pub engine: Engine,
+    /// The kernel asked for, if any.
+    pub kernel: Option<String>,
     /// Request to stop.
     pub interrupt: Interrupt,
 }
@@ -54,7 +56,14 @@ impl Sweep {
         let (journal, aside) = Journal::mend(folder, (&sha256, manifest.samples), &sums)?;
         tell_damaged(&[held.mended, aside, sums.damaged()].concat());
         let runs = kept::among(&sums.damaged(), folder, samples.clone());
+        if let Some(note) =
+            indices(&plan.study).filter(|_| !self.show.quiet && journal.finished.count(samples.clone()) == 0)
+        {
+            say(&format!("note: {note}"));
+        }
         let progress = self.compute(&journal.finished, &samples, (&sha256, &sums))?;
+        let note = self.kernel.as_ref().and_then(|kernel| progress.disobeyed(kernel));
+        note.iter().filter(|_| !self.show.quiet).for_each(|note| say(note));
         let journal = Journal::read(std::slice::from_ref(folder), &sha256, manifest.samples)?;
         let wanted = samples.clone().filter(|index| is_kept(&self.keep, *index));
         self.write_kept(&journal, &sums, wanted.chain(runs))?;

@@ -1,5 +1,6 @@
 //! Progress of a sweep.
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use crate::base::progress::{Runs, Show};
@@ -17,19 +18,24 @@ pub struct Progress {
     /// Samples computed by this process.
     pub computed: u64,
     failed: u64,
+    /// By kernel: the samples that it computed.
+    kernels: BTreeMap<String, u64>,
 }
 
 impl Progress {
     /// Progress of `samples`, of which `before` are finished.
     pub fn new(samples: u64, before: u64, show: Show) -> Self {
         let runs = Runs::new(samples, "samples", LINE_EVERY, show).from(before);
-        Progress { runs, before, computed: 0, failed: 0 }
+        Progress { runs, before, computed: 0, failed: 0, kernels: BTreeMap::new() }
     }
 
     /// Counts a row.
     pub fn see(&mut self, row: &Row) {
         self.computed += 1;
         self.failed += u64::from(row.status != Status::Completed);
+        if !row.kernel.is_empty() {
+            *self.kernels.entry(row.kernel.clone()).or_default() += 1;
+        }
         let done = self.before + self.computed;
         if let Some(bar) = self.runs.bar() {
             bar.set_position(done);
@@ -44,6 +50,14 @@ impl Progress {
     /// Seconds since the beginning.
     pub fn elapsed_s(&self) -> f64 {
         self.runs.elapsed_s()
+    }
+
+    /// What to say if some samples were computed by another kernel than `asked`.
+    pub fn disobeyed(&self, asked: &str) -> Option<String> {
+        let others = self.kernels.iter().filter(|(kernel, _)| *kernel != asked);
+        let others: Vec<String> = others.map(|(kernel, count)| format!("{count} with {kernel}")).collect();
+        let why = "a model that runs alone, or one in place of another on which the program stopped";
+        (!others.is_empty()).then(|| format!("note: --kernel {asked}: {} ({why})", others.join(", ")))
     }
 
     /// Ends the display.

@@ -8,6 +8,7 @@ use occupant_study::Value;
 use placed_text::Severity;
 
 use super::job::Sweep;
+use super::words::indices;
 use crate::base::Failure;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, trimmed};
@@ -38,7 +39,7 @@ impl Sweep {
         })?;
         let threads = self.engine.threads() as f64;
         let megabytes = count as f64 * manifest.columns.len() as f64 * CELL / 1e6;
-        let lines = [
+        let mut lines = vec![
             ("samples", format!("{count} of {} columns each", manifest.columns.len())),
             ("time", format!("about {}, one sample took {seconds:.2} s", duration(seconds * count as f64 / threads))),
             ("threads", threads.to_string()),
@@ -52,6 +53,7 @@ impl Sweep {
             ("table", format!("about {megabytes:.1} MB, plus the whole runs that are kept")),
             ("folder", format!("{}; nothing was written", self.folder.path.display())),
         ];
+        lines.extend(indices(&self.plan.study).map(|note| ("indices", note)));
         let first = self.first(samples.start..samples.end.min(samples.start + SHOWN));
         let refused =
             if refused.is_empty() { String::new() } else { format!("\nrefused corners\n{}", refused.concat()) };

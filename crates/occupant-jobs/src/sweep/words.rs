@@ -8,6 +8,7 @@ use crate::base::text_table::{Table, facts};
 use crate::base::{Done, Units, say};
 use crate::ensemble::text::{figure_table, is_shown, ranged};
 use crate::files::study_folder::Held;
+use occupant_study::{Design, Study};
 
 /// Warns about a file system without locks; `doing` is the work that two processes could do at once.
 pub fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
@@ -40,6 +41,21 @@ pub fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -
     let stable = results.ensembles.as_ref().map(|e| format!("\n{}", stable(e, units)));
     let ranges = if census.completed > 1 { format!("\n{}", ranges(results, units)) } else { String::new() };
     facts(&lines) + &ranges + &stable.unwrap_or_default()
+}
+
+/// Errors of Sobol' indices that are small enough to rank parameters.
+const GOOD: f64 = 0.1;
+
+/// Before a study for Sobol' indices runs: how far off its indices will be; none for other designs. The half width of a 95 % interval
+/// is about 2/√N for N points: the products that an index is the mean of vary about as much as the measure.
+pub fn indices(study: &Study) -> Option<String> {
+    let Design::Saltelli { samples, .. } = &study.design else { return None };
+    let off = (2.0 / (*samples as f64).sqrt()).min(1.0);
+    let found = format!("Sobol' indices of {samples} points will be off by up to about {off:.2}");
+    let needed = ((2.0 / GOOD) * (2.0 / GOOD)).ceil() as u64;
+    let needed = needed.next_power_of_two();
+    let runs = study.samples() / (*samples).max(1) * needed * study.members();
+    Some(if off > GOOD { format!("{found}; for {GOOD} give {needed} points, {runs} runs") } else { found })
 }
 
 /// How samples ended: "29 completed, 1 failed".

@@ -90,7 +90,7 @@ pub(crate) struct EngineArgs {
 
     /// How runs are computed: scalar, lanes4 or lanes8; the fastest for this processor if absent. Results are the same
     #[arg(long, value_name = "KERNEL")]
-    kernel: Option<String>,
+    pub(crate) kernel: Option<String>,
 }
 
 impl EngineArgs {
