@@ -65,3 +65,18 @@ impl Progress {
         self.runs.end();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::study_folder::row::tests::row;
+
+    #[test]
+    fn another_kernel_than_the_one_asked_for_is_told() {
+        let mut progress = Progress::new(3, 0, Show { quiet: true, bar: |_, _| None });
+        (0..3).for_each(|index| progress.see(&row(index)));
+        assert_eq!(progress.disobeyed("scalar"), None);
+        let told = progress.disobeyed("lanes8").unwrap();
+        assert!(told.starts_with("note: --kernel lanes8: 3 with scalar"), "{told}");
+    }
+}
