@@ -12,12 +12,62 @@ pub(crate) fn assigned(value: &Bound<'_, PyAny>) -> PyResult<String> {
         return Ok("null".to_owned());
     }
     if value.is_instance_of::<PyString>() {
-        // a text is one, whatever it looks like
-        return Ok(toml::Value::String(value.extract()?).to_string());
+        // a text is one, whatever it looks like, and in one line
+        let text: String = value.extract()?;
+        let quoted = toml::Value::String(text.replace('\n', " ")).to_string();
+        return Ok(if text.contains('\n') { serde_json::Value::from(text).to_string() } else { quoted });
     }
     bounded(value, &mut Vec::new())?;
     let value: toml::Value = depythonize(&plainly(value)?)?;
     Ok(value.to_string())
+}
+
+/// A value as the command line has it: a text without quotes where it stays one.
+pub(crate) fn spoken(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    match value.extract::<String>() {
+        Ok(text) if is_text(&text) => Ok(text),
+        _ => assigned(value),
+    }
+}
+
+/// Whether a text without quotes is read as itself, not as a value of TOML.
+fn is_text(text: &str) -> bool {
+    let is_value = toml::from_str::<toml::Table>(&format!("a = {text}")).is_ok();
+    let is_plain = !text.is_empty() && text == text.trim() && !text.contains(char::is_control);
+    is_plain && !is_value && text != "null" && text.parse::<f64>().is_err()
+}
+
+/// Changes as `--set` has them: a dict of values by path, or texts `path=value`.
+pub(crate) fn changes(given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+    let Some(given) = given else { return Ok(Vec::new()) };
+    if let Ok(dict) = given.cast::<PyDict>() {
+        let change = |(path, value): (Bound<'_, PyAny>, _)| change(&path.extract::<String>()?, &value);
+        return dict.iter().map(change).collect();
+    }
+    if given.is_instance_of::<PyString>() {
+        return Err(plain("overrides as one text; expected a dict {path: value} or a list [\"path=value\"]"));
+    }
+    given.try_iter()?.map(|text| text?.extract::<String>()).collect()
+}
+
+/// One of them.
+pub(crate) fn change(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    if path.contains('=') {
+        return Err(plain(format!("path {path:?} has a `=`; expected a path such as belts.lap.slack")));
+    }
+    Ok(format!("{path}={}", spoken(value)?))
+}
+
+/// What `--json` prints, as dicts and lists.
+pub(crate) fn json_of(value: &impl serde::Serialize, py: Python<'_>) -> PyResult<Py<PyAny>> {
+    Ok(pythonize::pythonize(py, value)?.unbind())
+}
+
+/// One of the names of a table.
+pub(crate) fn one_of<T: Copy>(what: &str, name: &str, table: &[(&str, &str, T)]) -> PyResult<T> {
+    let names = || table.iter().map(|row| row.0).collect::<Vec<_>>();
+    let found = table.iter().find(|row| row.0 == name).map(|row| row.2);
+    found.ok_or_else(|| plain(format!("{what} {name:?}; expected one of {}", names().join(", "))))
 }
 
 /// A dict as the text of a scenario.

@@ -7,10 +7,12 @@ mod batch;
 mod convert;
 mod force;
 mod live;
+mod results;
 mod run;
 mod scenario;
 mod study;
 mod trouble;
+mod work;
 
 use pyo3::prelude::*;
 
@@ -18,6 +20,8 @@ use pyo3::prelude::*;
 mod _occupant {
     #[pymodule_export]
     use super::live::LiveRun;
+    #[pymodule_export]
+    use super::results::{compare, read, report};
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
