@@ -1,4 +1,5 @@
-//! Many runs on all cores, in lanes on each, as one table with the columns of `occupant sweep`. Python's lock is free meanwhile.
+//! Many runs on all cores, in lanes on each, as one table with the columns of `occupant sweep`. Python's lock is free
+//! meanwhile.
 
 use std::collections::HashSet;
 

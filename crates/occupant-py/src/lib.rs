@@ -1,7 +1,7 @@
 //! Occupant for Python: scenarios from files, texts and dicts, runs, studies; time histories as NumPy arrays.
 //!
-//! Holds no physics and no file format of its own: it hands Python's values to the crates below and theirs back. Runs go on
-//! without Python's lock.
+//! Holds no physics and no file format of its own: it hands Python's values to the crates below and theirs back. Runs
+//! go on without Python's lock.
 
 mod batch;
 mod convert;
@@ -21,7 +21,7 @@ mod _occupant {
     #[pymodule_export]
     use super::live::LiveRun;
     #[pymodule_export]
-    use super::results::{compare, read, report};
+    use super::results::{compare, film, read, report, view};
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]

@@ -14,7 +14,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summary;
 use occupant_core::run::simulate::replay;
-use occupant_files::base::{file_name, publish};
+use occupant_files::base::{ending, file_name, publish};
 use occupant_files::history::FAMILIES;
 use occupant_files::results::Results;
 use occupant_files::scenario::Opened;
@@ -179,9 +179,12 @@ impl Run {
         Results::of_bytes(&filed.results.path, &filed.bytes)
     }
 
-    /// Writes its file.
-    pub(crate) fn write(&self, path: &Path, force: bool) -> Result<(), Failure> {
-        publish(path, force, &self.filed()?.bytes)
+    /// Writes its file into a folder, under its name.
+    pub(crate) fn write_into(&self, folder: &Path) -> Result<PathBuf, Failure> {
+        let filed = self.filed()?;
+        let path = folder.join(file_name(&filed.results.path));
+        publish(&path, false, &filed.bytes)?;
+        Ok(path)
     }
 
     fn series(&self, channels: Vec<Channel>) -> PyResult<Series> {
@@ -204,7 +207,7 @@ impl Run {
 
 #[pymethods]
 impl Run {
-    /// A run from the bytes of a result file.
+    /// A run from the `bytes` of a result file; `name` is for messages.
     #[staticmethod]
     #[pyo3(signature = (bytes, name="run.mcap"))]
     fn from_bytes(py: Python<'_>, bytes: Vec<u8>, name: &str) -> PyResult<Self> {
@@ -217,10 +220,16 @@ impl Run {
         Ok(PyBytes::new(py, &filed.bytes))
     }
 
-    /// Writes a result file (MCAP) as `occupant run -o`; one that exists only with `force`.
+    /// Writes a result file (MCAP) as `occupant run -o` to `path`; one that exists is replaced only with `force`.
     #[pyo3(signature = (path, force=false))]
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
-        py.detach(|| self.write(&path, force)).map_err(failed)
+        py.detach(|| {
+            if ending(&path) != "mcap" {
+                return Err(Failure::ending(&path, ".mcap"));
+            }
+            publish(&path, force, &self.filed()?.bytes)
+        })
+        .map_err(failed)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -269,9 +278,9 @@ impl Run {
         }
     }
 
-    /// Measures with limits, risks and caveats, as `occupant measures --json` prints them. `filter`: "none" or "j211"; `coefficients`:
-    /// "iso6487" or "sae-j211"; `dummy`: whose limits and risk curves apply, such as "thor-50m", that nearest in size if None;
-    /// `interval`: the run is computed again with readings at this interval, s.
+    /// Measures with limits, risks and caveats, as `occupant measures --json` prints them. `filter`: "none" or "j211";
+    /// `coefficients`: "iso6487" or "sae-j211"; `dummy`: whose limits and risk curves apply, such as "thor-50m", that
+    /// nearest in size if None; `interval`: the run is computed again with readings at this interval, s.
     #[pyo3(signature = (filter="none", coefficients="iso6487", dummy=None, interval=None))]
     fn judge(
         &self,
@@ -335,8 +344,8 @@ impl Run {
         Ok(dict)
     }
 
-    /// Time histories as a pandas.DataFrame with the time, s, as its index; all channels without patterns. Its `attrs` hold units
-    /// and meanings. Needs pandas.
+    /// Time histories as a pandas.DataFrame with the time, s, as its index; all channels without patterns. Its `attrs`
+    /// hold units and meanings. Needs pandas.
     #[pyo3(signature = (*patterns))]
     fn to_pandas<'py>(&self, py: Python<'py>, patterns: Vec<String>) -> PyResult<Bound<'py, PyAny>> {
         let (patterns, pandas) = (all_of(patterns), installed(py, "pandas")?);
@@ -358,8 +367,8 @@ impl Run {
         Ok(frame)
     }
 
-    /// Time histories as an xarray.Dataset over `time`; all channels without patterns. Each has its unit and meaning as attributes
-    /// `units` and `long_name`. Needs xarray.
+    /// Time histories as an xarray.Dataset over `time`; all channels without patterns. Each has its unit and meaning as
+    /// attributes `units` and `long_name`. Needs xarray.
     #[pyo3(signature = (*patterns))]
     fn to_xarray<'py>(&self, py: Python<'py>, patterns: Vec<String>) -> PyResult<Bound<'py, PyAny>> {
         let (patterns, xarray) = (all_of(patterns), installed(py, "xarray")?);

@@ -25,7 +25,8 @@ use crate::run::Run;
 use crate::trouble::{failed, plain, problems, refused};
 use crate::work::{Progress, SHOW, work};
 
-/// A scenario: a TOML or JSON file, a card deck, or a dict of its keys. Files that it refers to are searched in its folder.
+/// A scenario: a TOML or JSON file, a card deck, or a dict of its keys. Files that it refers to are searched in its
+/// folder.
 #[pyclass(module = "occupant", skip_from_py_object)]
 #[derive(Clone)]
 pub(crate) struct Scenario {
@@ -72,15 +73,15 @@ impl Scenario {
         Self::open(&path)
     }
 
-    /// A scenario from its text, `format` "toml" or "json"; files that it refers to are searched in `folder`.
+    /// A scenario from `text`, `format` "toml" or "json"; files that it refers to are searched in `folder`.
     #[staticmethod]
     #[pyo3(signature = (text, format="toml", folder=PathBuf::new()))]
     fn from_text(text: &str, format: &str, folder: PathBuf) -> PyResult<Self> {
         Scenario::of(Text::new(folder.join(named("text", format)?), text.as_bytes().to_vec()), Vec::new())
     }
 
-    /// All values whose paths match `pattern`, where `*` matches anything, presets included: dicts of `path`, `value`, `unit` (that
-    /// of a bare number there, empty if none) and `meaning`.
+    /// All values whose paths match `pattern`, where `*` matches anything, presets included: dicts of `path`, `value`,
+    /// `unit` (that of a bare number there, empty if none) and `meaning`.
     #[pyo3(signature = (pattern="*"))]
     fn paths<'py>(&self, py: Python<'py>, pattern: &str) -> PyResult<Bound<'py, PyList>> {
         let list = PyList::empty(py);
@@ -110,17 +111,18 @@ impl Scenario {
         Ok(dict.into_any())
     }
 
-    /// Adds a force of your own: `function(t, places, velocities)` gives a force for each of `places`, N. Places are spheres by name, or
-    /// points `("head", [x, y, z])` of a segment, of "vehicle" or of "space", m. The function sees and says all in space axes: x
-    /// forward, y left, z up. It must follow from what it is given.
+    /// Adds a force of your own, called `name`: `function`, of time, places and velocities, gives a force for each of
+    /// `places`, N. Places are spheres by name, or points `("head", [x, y, z])` of a segment, of "vehicle" or of
+    /// "space", m. The function sees and says all in space axes: x forward, y left, z up. It must follow from what it
+    /// is given.
     fn add_force(&mut self, name: String, places: Vec<Bound<'_, PyAny>>, function: Py<PyAny>) -> PyResult<()> {
         let places = places.iter().map(Where::of).collect::<PyResult<Vec<_>>>()?;
         self.forces.push(Arc::new(Brought { name, places, function }));
         Ok(())
     }
 
-    /// A run that is stepped from outside. With `velocity` the vehicle begins with it, m/s, at `place`, m, turned by `attitude`, rad, and
-    /// is told from then on how it moves: `LiveRun.push`.
+    /// A run that is stepped from outside. With `velocity` the vehicle begins with it, m/s, at `place`, m, turned by
+    /// `attitude`, rad, with `rates`, rad/s, and is told from then on how it moves: `LiveRun.push`.
     #[pyo3(signature = (velocity=None, place=[0.0; 3], attitude=[0.0; 3], rates=[0.0; 3]))]
     fn live(
         &self,
@@ -198,12 +200,13 @@ impl Scenario {
         format!("<occupant.Scenario {:?}, {} changes>", self.text.name(), self.changes.len())
     }
 
-    /// Runs it once for each row of `matrix`, an array or a list of lists, with the values of the row at `paths`: numbers in the
-    /// scenario's units, texts with their unit. On `threads` threads, all cores if None, in lanes on each. Gives a table by columns,
-    /// those of `occupant sweep`: `index`, what was put at each path as `input.PATH`, `status`, `reason`, `caveats`, every figure of a
-    /// run in its SI unit, NaN where there is none, `wall_time_s`, `kernel`. The rows are the same to the bit for any number of
-    /// threads. `progress`: True for a bar of tqdm, or a function of the number of runs done and of all. Raises OccupantError where
-    /// a row has not as many values as there are paths, a path is given twice, or the scenario has forces of Python's.
+    /// Runs it once for each row of `matrix`, an array or a list of lists, with the values of the row at `paths`:
+    /// numbers in the scenario's units, texts with their unit. On `threads` threads, all cores if None, in lanes on
+    /// each. Gives a table by columns, those of `occupant sweep`: `index`, what was put at each path as `input.PATH`,
+    /// `status`, `reason`, `caveats`, every figure of a run in its SI unit, NaN where there is none, `wall_time_s`,
+    /// `kernel`. The rows are the same to the bit for any number of threads. `progress`: True for a bar of tqdm, or a
+    /// function of the number of runs done and of all. Raises OccupantError where a row has not as many values as there
+    /// are paths, a path is given twice, or the scenario has forces of Python's.
     #[pyo3(signature = (paths, matrix, threads=None, progress=None))]
     fn batch<'py>(
         &self,
@@ -243,9 +246,9 @@ impl Scenario {
         table.finish(of_runs)
     }
 
-    /// Runs the scenario, up to `until` instead of `time.end`, and with other values: `overrides`, a dict of values by path or a list
-    /// of texts as `--set` has them. Other Python threads continue meanwhile. `progress`: True for a bar of tqdm, or a function of
-    /// the number of outputs done and of all.
+    /// Runs the scenario, up to `until` instead of `time.end`, and with other values: `overrides`, a dict of values by
+    /// path or a list of texts as `--set` has them. Other Python threads continue meanwhile. `progress`: True for a bar
+    /// of tqdm, or a function of the number of outputs done and of all.
     #[pyo3(signature = (until=None, overrides=None, progress=None))]
     fn run(
         &self,
@@ -265,8 +268,9 @@ impl Scenario {
         raised.map_or(run, Err)
     }
 
-    /// How measures and channels change with numbers of the scenario, as `occupant sensitivity --json` prints it: exact derivatives of
-    /// the measures `to` by the values at the paths `of`, each checked by runs beside it.
+    /// How measures and channels change with numbers of the scenario, as `occupant sensitivity --json` prints it: exact
+    /// derivatives of the measures `to` by the values at the paths `of`, each checked by runs beside it. `progress` as
+    /// of `run`.
     #[pyo3(signature = (to, of, progress=None))]
     fn sensitivity(
         &self,
@@ -313,6 +317,11 @@ impl Scenario {
         Ok(scenario)
     }
 
+    /// Everything that its run needs.
+    pub(crate) fn to_run(&self, py: Python<'_>) -> PyResult<Opened> {
+        Ok(self.opened(py, None)?.0)
+    }
+
     fn change(&mut self, change: String) -> PyResult<()> {
         self.draft.set(&change).map_err(|wrong| refused(&wrong))?;
         self.changes.push(change);
@@ -327,7 +336,8 @@ impl Scenario {
         self.loaded()?.model()
     }
 
-    /// Everything that a run needs, with Python forces; if it begins with `start`, the vehicle's motion is given during the run.
+    /// Everything that a run needs, with Python forces; if it begins with `start`, the vehicle's motion is given during
+    /// the run.
     fn opened(&self, py: Python<'_>, start: Option<VehicleState>) -> PyResult<(Opened, Trouble)> {
         let trouble = Trouble::default();
         let loaded = py.detach(|| self.loaded()).map_err(|wrong| refused(&wrong))?;

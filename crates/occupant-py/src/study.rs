@@ -128,15 +128,17 @@ fn scenario_of(base: &Bound<'_, PyAny>) -> PyResult<Scenario> {
 
 #[pymethods]
 impl Study {
-    /// `source`: the study's file, or a dict of its keys, whose `base` may be a Scenario or a dict; files of a dict are searched in
-    /// `folder`. `changes`: values of its base scenario, a dict by path or a list of texts as `--set` has them.
+    /// `source`: the study's file, or a dict of its keys, whose `base` may be a Scenario or a dict; files of a dict are
+    /// searched in `folder`. `changes`: values of its base scenario, a dict by path or a list of texts as `--set` has
+    /// them.
     #[new]
     #[pyo3(signature = (source, changes=None, folder=PathBuf::new()))]
     fn new(source: &Bound<'_, PyAny>, changes: Option<&Bound<'_, PyAny>>, folder: PathBuf) -> PyResult<Self> {
         origin(source, &folder, changes)?.study()
     }
 
-    /// A study from its text, `format` "toml" or "json"; files that it refers to are searched in `folder`.
+    /// A study from `text`, `format` "toml" or "json"; files that it refers to are searched in `folder`. `changes` as
+    /// of `Study`.
     #[staticmethod]
     #[pyo3(signature = (text, format="toml", folder=PathBuf::new(), changes=None))]
     fn from_text(text: &str, format: &str, folder: PathBuf, changes: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
@@ -177,10 +179,10 @@ impl Study {
         json_of(&self.plan()?.manifest.columns, py)
     }
 
-    /// Runs all of it on `threads` threads, all cores if None, and gives a table by columns, those of `occupant sweep`: `index`, the
-    /// parameters as `input.NAME` in SI units, `status`, `reason`, `caveats`, every figure of a run in its SI unit, NaN where there is
-    /// none, `wall_time_s`, `kernel`. The rows are the same to the bit for any number of threads. `progress`: True for a bar of
-    /// tqdm, or a function of the number of runs done and of all.
+    /// Runs all of it on `threads` threads, all cores if None, and gives a table by columns, those of `occupant sweep`:
+    /// `index`, the parameters as `input.NAME` in SI units, `status`, `reason`, `caveats`, every figure of a run in its
+    /// SI unit, NaN where there is none, `wall_time_s`, `kernel`. The rows are the same to the bit for any number of
+    /// threads. `progress`: True for a bar of tqdm, or a function of the number of runs done and of all.
     #[pyo3(signature = (threads=None, progress=None))]
     fn run<'py>(
         &self,
@@ -209,9 +211,10 @@ impl Study {
         table.finish(rows.iter())
     }
 
-    /// Fits the parameters to tests, as `occupant fit`: the study has a section `fit`. `tests`: files for tests that name none; `maps`:
-    /// assignments of their columns, 'column[unit]=channel'. What it writes goes into `folder`, where an interrupted fit is resumed
-    /// unless `restart`; nothing is kept without one. Gives what `occupant fit --json` prints.
+    /// Fits the parameters to tests, as `occupant fit`: the study has a section `fit`. `tests`: files for tests that
+    /// name none; `maps`: assignments of their columns, 'column[unit]=channel'. What it writes goes into `folder`,
+    /// where an interrupted fit is resumed unless `restart`; nothing is kept without one. `threads` and `progress` as
+    /// of `run`. Gives what `occupant fit --json` prints.
     #[pyo3(signature = (tests=Vec::new(), maps=Vec::new(), folder=None, restart=false, threads=None, progress=None))]
     #[allow(clippy::too_many_arguments)]
     fn fit(
@@ -232,8 +235,9 @@ impl Study {
         })
     }
 
-    /// Finds the parameters with which a measure is smallest, as `occupant optimise`: the study has a section `optimise`. `folder` and
-    /// `restart` as of `fit`. Gives what `occupant optimise --json` prints.
+    /// Finds the parameters with which a measure is smallest, as `occupant optimise`: the study has a section
+    /// `optimise`. `folder`, `restart`, `threads` and `progress` as of `fit`. Gives what `occupant optimise --json`
+    /// prints.
     #[pyo3(signature = (folder=None, restart=false, threads=None, progress=None))]
     fn optimise(
         &self,

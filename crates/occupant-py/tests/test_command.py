@@ -137,15 +137,45 @@ def test_ratings_are_those_of_the_command(command, tmp_path):
     same(occupant.compare(*runs, **options)["pairs"], answer["pairs"])
 
 
-def test_a_report_is_that_of_the_command(command, tmp_path):
-    file = result(command, tmp_path, CART, "--until", "40 ms")
+def test_a_report_is_that_of_the_command(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result(command, tmp_path, CART, "--until", "40 ms")
     other = occupant.Scenario(CART).run(until="40 ms", overrides={"path.speed": "22 mph"})
-    other.save(tmp_path / "cart-lap-torso.mcap")
-    command("report", file, tmp_path / "cart-lap-torso.mcap", "--channel", "belt.lap.force", "--output", tmp_path / "theirs.html")
-    occupant.report(file, other, path=tmp_path / "own.html", channels=["belt.lap.force"])
-    assert (tmp_path / "own.html").read_bytes() == (tmp_path / "theirs.html").read_bytes()
+    other.save("cart-lap-torso.mcap")
+    words = ["--channel", "belt.lap.force", "--output", "theirs.html"]
+    command("report", "command.mcap", "cart-lap-torso.mcap", *words, cwd=tmp_path)
+    occupant.report("command.mcap", other, path="own.html", channels=["belt.lap.force"])
+    assert Path("own.html").read_bytes() == Path("theirs.html").read_bytes()
     with pytest.raises(occupant.OccupantError, match="exists"):
-        occupant.report(file, path=tmp_path / "own.html")
+        occupant.report("command.mcap", path="own.html")
+
+
+def test_pictures_are_those_of_the_command(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result(command, tmp_path, CART, "--until", "40 ms").rename("cart-lap-torso.mcap")
+    run = occupant.Scenario(CART).run(until="40 ms")
+    ghost = occupant.Scenario(CART).run(until="40 ms", overrides={"path.speed": "22 mph"})
+    ghost.save("ghost.mcap")
+
+    def same_as(own, *words):
+        command("view", *words, "--output", f"theirs-{own}", cwd=tmp_path)
+        assert Path(own).read_bytes() == Path(f"theirs-{own}").read_bytes()
+
+    occupant.view(run, "strip.svg", times="0, 20, 40 ms", views=["top", "side"])
+    same_as("strip.svg", "cart-lap-torso.mcap", "--times", "0, 20, 40 ms", "--views", "top,side")
+    occupant.view("cart-lap-torso.mcap", "two.svg", times=[0.0, 0.02])
+    same_as("two.svg", "cart-lap-torso.mcap", "--times", "0, 0.02")
+    occupant.view(occupant.Scenario(CART), "start.png", dimensions=True)
+    same_as("start.png", CART, "--dimensions")
+    occupant.view(run, "solid.png", times=[0.03], solid=True, camera="chase", size=(320, 180), ghosts=["ghost.mcap"])
+    words = ["--3d", "--camera", "chase", "--size", "320x180", "--ghost", "ghost.mcap", "--times", "0.03"]
+    same_as("solid.png", "cart-lap-torso.mcap", *words)
+    seen = []
+    occupant.film(run, "film.gif", slow_motion=40, freeze=0.02, progress=lambda *now: seen.append(now))
+    same_as("film.gif", "cart-lap-torso.mcap", "--slow-motion", "40", "--freeze", "20 ms")
+    assert seen[-1][0] == seen[-1][1] > 40
+    occupant.film(run, "frames", slow_motion=10)
+    assert len(list(Path("frames").glob("*.png"))) == 11
 
 
 def test_derivatives_are_those_of_the_command(command):

@@ -7,6 +7,18 @@
 >>> run.measures["hic15"], run["head.acceleration.resultant"].max()
 """
 
-from ._occupant import LiveRun, OccupantError, Run, Scenario, Study, __version__, compare, read, report
+from ._occupant import LiveRun, OccupantError, Run, Scenario, Study, __version__, compare, film, read, report, view
 
-__all__ = ["LiveRun", "OccupantError", "Run", "Scenario", "Study", "__version__", "compare", "read", "report"]
+__all__ = [
+    "LiveRun",
+    "OccupantError",
+    "Run",
+    "Scenario",
+    "Study",
+    "__version__",
+    "compare",
+    "film",
+    "read",
+    "report",
+    "view",
+]

@@ -2,12 +2,61 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from os import PathLike
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 __version__: str
+
+Path: TypeAlias = str | PathLike[str]
+Changes: TypeAlias = dict[str, Any] | Iterable[str]
+Progress: TypeAlias = bool | Callable[[int, int], object] | None
+Table: TypeAlias = dict[str, Any]
+
+def read(path: Path) -> Run: ...
+def compare(
+    computed: Run | Path,
+    measured: Run | Path,
+    channels: Sequence[str] = ...,
+    maps: Sequence[str] = ...,
+    seat: str = "1",
+    start: float | None = None,
+    end: float | None = None,
+    shift: float = 0.0,
+    filter: str = "none",
+    coefficients: str = "iso6487",
+) -> dict[str, Any]: ...
+def report(
+    *runs: Run | Path, path: Path, channels: Sequence[str] = ..., verdict: bool = False, force: bool = False
+) -> None: ...
+def view(
+    source: Run | Scenario | Path,
+    path: Path,
+    times: Sequence[float] | str | None = None,
+    views: Sequence[str] = ...,
+    dimensions: bool = False,
+    solid: bool = False,
+    camera: str = "vehicle",
+    size: tuple[int, int] | None = None,
+    ghosts: Sequence[Run | Path] = ...,
+    beside: Run | Path | None = None,
+    force: bool = False,
+) -> None: ...
+def film(
+    source: Run | Path,
+    path: Path,
+    slow_motion: float = ...,
+    freeze: float | None = None,
+    views: Sequence[str] = ...,
+    solid: bool = False,
+    camera: str = "vehicle",
+    size: tuple[int, int] | None = None,
+    ghosts: Sequence[Run | Path] = ...,
+    beside: Run | Path | None = None,
+    force: bool = False,
+    progress: Progress = None,
+) -> None: ...
 
 class OccupantError(ValueError):
     """A scenario or study that is wrong, or a run that failed."""
@@ -17,9 +66,10 @@ class OccupantError(ValueError):
 class Scenario:
     """A scenario: a file in TOML or JSON, or a dict of its keys."""
 
-    def __init__(self, source: str | PathLike[str] | dict[str, Any]) -> None: ...
+    def __init__(self, source: Path | dict[str, Any]) -> None: ...
     @staticmethod
-    def from_text(text: str, format: str = "toml", folder: str | PathLike[str] = "") -> Scenario: ...
+    def from_text(text: str, format: str = "toml", folder: Path = ...) -> Scenario: ...
+    def paths(self, pattern: str = "*") -> list[dict[str, Any]]: ...
     def __setitem__(self, path: str, value: Any) -> None: ...
     def __getitem__(self, path: str) -> Any: ...
     def __delitem__(self, path: str) -> None: ...
@@ -39,10 +89,17 @@ class Scenario:
         attitude: Sequence[float] = (0.0, 0.0, 0.0),
         rates: Sequence[float] = (0.0, 0.0, 0.0),
     ) -> LiveRun: ...
-    def run(self) -> Run: ...
+    def run(
+        self, until: float | str | None = None, overrides: Changes | None = None, progress: Progress = None
+    ) -> Run: ...
     def batch(
-        self, paths: Sequence[str], matrix: Iterable[Sequence[Any]] | NDArray[np.float64], threads: int | None = None
-    ) -> dict[str, Any]: ...
+        self,
+        paths: Sequence[str],
+        matrix: Iterable[Sequence[Any]] | NDArray[np.float64],
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> Table: ...
+    def sensitivity(self, to: Sequence[str], of: Sequence[str], progress: Progress = None) -> dict[str, Any]: ...
 
 class LiveRun:
     """A run that is stepped from outside."""
@@ -77,6 +134,10 @@ class LiveRun:
 class Run:
     """A run that has ended."""
 
+    @staticmethod
+    def from_bytes(bytes: bytes, name: str = "run.mcap") -> Run: ...
+    def to_bytes(self) -> bytes: ...
+    def save(self, path: Path, force: bool = False) -> None: ...
     @property
     def status(self) -> str: ...
     @property
@@ -86,16 +147,51 @@ class Run:
     @property
     def caveats(self) -> list[dict[str, Any]]: ...
     @property
+    def notes(self) -> list[str]: ...
+    def judge(
+        self,
+        filter: str = "none",
+        coefficients: str = "iso6487",
+        dummy: str | None = None,
+        interval: float | None = None,
+    ) -> dict[str, Any]: ...
+    @property
     def time(self) -> NDArray[np.float64]: ...
     def channels(self, pattern: str = "*") -> list[dict[str, str]]: ...
     def __getitem__(self, name: str) -> NDArray[np.float64]: ...
     def series_of(self, *patterns: str) -> dict[str, NDArray[np.float64]]: ...
+    def to_pandas(self, *patterns: str) -> Any: ...
+    def to_xarray(self, *patterns: str) -> Any: ...
 
 class Study:
     """A study: a scenario in which values are varied."""
 
-    def __init__(self, path: str | PathLike[str], changes: dict[str, Any] | None = None) -> None: ...
+    def __init__(
+        self, source: Path | dict[str, Any], changes: Changes | None = None, folder: Path = ...
+    ) -> None: ...
+    @staticmethod
+    def from_text(
+        text: str, format: str = "toml", folder: Path = ..., changes: Changes | None = None
+    ) -> Study: ...
     def __len__(self) -> int: ...
+    @property
+    def columns(self) -> list[dict[str, str]]: ...
     def sample(self, index: int) -> dict[str, float | str]: ...
     def scenario(self, index: int) -> Scenario: ...
-    def run(self, threads: int | None = None) -> dict[str, Any]: ...
+    def run(self, threads: int | None = None, progress: Progress = None) -> Table: ...
+    def fit(
+        self,
+        tests: Sequence[Path] = ...,
+        maps: Sequence[str] = ...,
+        folder: Path | None = None,
+        restart: bool = False,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> dict[str, Any]: ...
+    def optimise(
+        self,
+        folder: Path | None = None,
+        restart: bool = False,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> dict[str, Any]: ...
