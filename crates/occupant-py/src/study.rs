@@ -45,6 +45,9 @@ struct Origin {
     path: PathBuf,
     /// Texts in the place of files.
     texts: Vec<(NamedBy, String, Vec<u8>)>,
+    /// Changes that its base brings, which the study may change again.
+    before: Vec<String>,
+    /// Changes of all its runs.
     changes: Vec<String>,
 }
 
@@ -64,8 +67,16 @@ impl Origin {
     }
 
     fn plan(&self) -> PyResult<Plan> {
-        let plan = Plan::open(&self.path, &self.changes, &self.texts(), program());
-        plan.map_err(|failure| self.problems().err().map_or_else(|| failed(failure), |all| refused(&all)))
+        let plan = Plan::on(&self.before, &self.path, &self.changes, &self.texts(), program());
+        let placed = || self.problems().err().filter(|all| all.has_errors());
+        plan.map_err(|failure| placed().map_or_else(|| failed(failure), |all| refused(&all)))
+    }
+
+    /// All changes, for searches: of what the base brings, what the study does not set.
+    fn all_changes(&self) -> Vec<String> {
+        let set = study_text(&self.path, &self.texts()).map(|text| text.section.set).unwrap_or_default();
+        let is_set = |change: &String| change.split_once('=').is_some_and(|(path, _)| set.contains_key(path.trim()));
+        self.before.iter().filter(|change| !is_set(change)).chain(&self.changes).cloned().collect()
     }
 
     /// Whether it says what to search for, and no design.
@@ -84,39 +95,31 @@ impl Origin {
         let text = StudyText::read_bytes(&bytes, format_of(&self.path), &self.path.display().to_string())?;
         let base = self.path.parent().unwrap_or(Path::new("")).join(text.base());
         let bytes = read(NamedBy::StudyAsBase, text.base()).map_err(none)?;
-        let draft = Draft::read_bytes(&bytes, format_of(&base), &base.display().to_string())?;
+        let mut draft = Draft::read_bytes(&bytes, format_of(&base), &base.display().to_string())?;
+        self.before.iter().try_for_each(|change| draft.set(change))?;
         text.bind(draft, &self.changes, &|name| texts.get(NamedBy::Study, name)).map(drop)
     }
 }
 
 /// Opens a path, a dict, or a text; the scenario that a dict brings itself is its base.
 fn origin(source: &Bound<'_, PyAny>, folder: &Path, given: Option<&Bound<'_, PyAny>>) -> PyResult<Origin> {
-    let mut all = Vec::new();
     let Ok(dict) = source.cast::<PyDict>() else {
         let path: PathBuf = source.extract()?;
         // an error of the operating system is one of Python's
         std::fs::metadata(&path)?;
-        return Ok(Origin { path, texts: Vec::new(), changes: changes(given)? });
+        return Ok(Origin { path, texts: Vec::new(), before: Vec::new(), changes: changes(given)? });
     };
-    let (dict, mut texts) = (dict.copy()?, Vec::new());
+    let (dict, mut texts, mut before) = (dict.copy()?, Vec::new(), Vec::new());
     if let Some(base) = dict.get_item("base")?.filter(|base| !base.is_instance_of::<PyString>()) {
         let base = scenario_of(&base)?;
         let name = std::path::absolute(&base.text.path)?.display().to_string();
         dict.set_item("base", &name)?;
         texts.push((NamedBy::StudyAsBase, name, base.text.bytes.clone()));
-        // what the study sets holds over what the scenario brings
-        let set = dict.get_item("set")?;
-        for change in base.changes {
-            let path = change.split_once('=').map_or("", |(path, _)| path.trim());
-            if !set.as_ref().is_some_and(|set| set.contains(path).unwrap_or_default()) {
-                all.push(change);
-            }
-        }
+        before = base.changes;
     }
-    all.extend(changes(given)?);
     let name = named("study", "json")?;
     texts.push((NamedBy::CommandLine, name.clone(), json(&dict)?.into_bytes()));
-    Ok(Origin { path: folder.join(name), texts, changes: all })
+    Ok(Origin { path: folder.join(name), texts, before, changes: changes(given)? })
 }
 
 fn scenario_of(base: &Bound<'_, PyAny>) -> PyResult<Scenario> {
@@ -144,7 +147,8 @@ impl Study {
     fn from_text(text: &str, format: &str, folder: PathBuf, changes: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let name = named("study", format)?;
         let texts = vec![(NamedBy::CommandLine, name.clone(), text.as_bytes().to_vec())];
-        Origin { path: folder.join(name), texts, changes: crate::convert::changes(changes)? }.study()
+        Origin { path: folder.join(name), texts, before: Vec::new(), changes: crate::convert::changes(changes)? }
+            .study()
     }
 
     fn __len__(&self) -> PyResult<usize> {
@@ -229,7 +233,7 @@ impl Study {
     ) -> PyResult<Py<PyAny>> {
         let maps = maps.iter().map(|text| text.parse()).collect::<Result<Vec<MapArgument>, _>>().map_err(plain)?;
         self.search(py, folder, (restart, threads, progress), |folder, work| {
-            let given = Given { files: &tests, maps: &maps, overrides: &self.of.changes };
+            let given = Given { files: &tests, maps: &maps, overrides: &self.of.all_changes() };
             let fitting = Fitting::of(&self.of.path, &given, &self.of.texts(), program())?;
             occupant_jobs::fit::fit(&fitting, &Folder::of_fit(folder), work)
         })
@@ -248,7 +252,7 @@ impl Study {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<PyAny>> {
         self.search(py, folder, (restart, threads, progress), |folder, work| {
-            let optimising = Optimising::of(&self.of.path, &self.of.changes, &self.of.texts(), program())?;
+            let optimising = Optimising::of(&self.of.path, &self.of.all_changes(), &self.of.texts(), program())?;
             occupant_jobs::optimise::optimise(&optimising, &Folder::of_optimum(folder), work)
         })
     }
@@ -260,7 +264,7 @@ impl Study {
             texts.append((pythonize(py, &by)?, name, PyBytes::new(py, &bytes)))?;
         }
         let path = std::path::absolute(&own.of.path)?;
-        let parts = (path, texts, own.of.changes.clone()).into_pyobject(py)?;
+        let parts = (path, texts, own.of.before.clone(), own.of.changes.clone()).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restored")?, parts))
     }
 
@@ -268,11 +272,12 @@ impl Study {
     fn _restored(
         path: PathBuf,
         texts: Vec<(Bound<'_, PyAny>, String, Vec<u8>)>,
+        before: Vec<String>,
         changes: Vec<String>,
     ) -> PyResult<Self> {
         let text = |(by, name, bytes): (Bound<'_, PyAny>, _, _)| Ok((depythonize(&by)?, name, bytes));
         let texts = texts.into_iter().map(text).collect::<PyResult<_>>()?;
-        Origin { path, texts, changes }.study()
+        Origin { path, texts, before, changes }.study()
     }
 
     fn __repr__(&self) -> String {

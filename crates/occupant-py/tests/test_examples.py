@@ -41,5 +41,6 @@ def test_gymnasium():
     from gymnasium.utils.env_checker import check_env
 
     check_env(names["ControlledLimiter"](0.01))
-    rewards = {force_n: names["play"](force_n, 0.1) for force_n in (500.0, 3000.0, 8000.0)}
-    print(rewards)
+    # without the belt's force he strikes the wheel
+    soft, hard = (names["play"](force_n) for force_n in (1000.0, 8000.0))
+    assert soft[1] > 1.5 * hard[1] and soft[0] < hard[0] < 0

@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[3]
 CART = ROOT / "scenarios" / "cart-lap-torso.toml"
 DESIGN = {
     "seed": 3,
-    "set": {"time.end": "20 ms"},
+    "set": {"time.end": "40 ms"},
     "design": {"kind": "sobol", "samples": 4},
     "parameters": [{"name": "speed", "path": "path.speed", "range": {"from": "10 mph", "to": "30 mph"}}],
 }
@@ -72,7 +72,7 @@ def test_a_run_is_changed_for_once(scenario):
 
 
 def test_a_text_stays_a_text(scenario):
-    for text in ("1.5", "true", "null", "'a'", " blank ", "", "a\nb", 'quo"te', "ä = 🙂", "[1, 2]", "#", "\x7f", "\\"):
+    for text in ("1.5", "true", "'a'", " blank ", "", "a\nb", 'quo"te', "ä = 🙂", "[1, 2]", "#", "\x7f", "\\"):
         scenario["notes"] = text
         assert scenario["notes"] == text, repr(text)
         assert pickle.loads(pickle.dumps(scenario))["notes"] == text
@@ -114,6 +114,7 @@ def test_what_is_no_result_file_is_refused(run, tmp_path):
             assert occupant.Run.from_bytes(bytes(cut)).time.size > 0
         except occupant.OccupantError:
             pass
+    whole = occupant.Scenario(CART).run(until="150 ms").to_bytes()
     half = occupant.Run.from_bytes(whole[: len(whole) * 2 // 3])
     assert half.status == "interrupted" and half.notes
     with pytest.raises(FileNotFoundError):
@@ -140,7 +141,7 @@ def test_a_study_is_a_dict_with_any_design(scenario, tmp_path):
     scenario["belts.lap.slack"] = 0.9
     changed = occupant.Study({**DESIGN, "base": scenario})
     assert (changed.run()["belts.lap.peak"] != tables[0]["belts.lap.peak"]).all()
-    assert changed.scenario(2)["belts.lap.slack"] == 0.9 and changed.scenario(2)["time.end"] == "20 ms"
+    assert changed.scenario(2)["belts.lap.slack"] == 0.9 and changed.scenario(2)["time.end"] == "40 ms"
     # what the study sets holds over what its base brings
     assert changed.scenario(0).run().measures["hic15"] == changed.run()["hic15"][0]
     set_too = occupant.Study({**DESIGN, "base": scenario, "set": {"belts.lap.slack": 0.2, "time.end": "10 ms"}})
@@ -286,14 +287,15 @@ def test_measures_are_refused_in_words(run):
             run.judge(**wrong)
     judged = run.judge(dummy="thor-50m")
     assert judged["dummy"].startswith("THOR") and any(one["limits"] for one in judged["measures"])
-    assert {"rule", "most", "passed"} <= judged["measures"][0]["limits"][0].keys()
+    [limit, *_] = next(one["limits"] for one in judged["measures"] if one["limits"])
+    assert {"rule", "most", "passed"} <= limit.keys()
 
 
 def test_comparisons_and_pictures_are_refused_in_words(run, tmp_path):
     for wrong in ({"filter": "cfc5"}, {"start": float("nan")}, {"maps": ["x"]}, {"channels": ["nothing"]}, {"coefficients": "x"}):
         with pytest.raises(occupant.OccupantError):
             occupant.compare(run, run, **wrong)
-    assert occupant.compare(run, run, channels=["belt.lap.force"])["pairs"][0]["iso18571"]["overall"] == 1.0
+    assert occupant.compare(run, run, channels=["head.acceleration.x"])["pairs"][0]["iso18571"]["overall"] == 1.0
     for path, options in (
         ("a.svg", {"times": [9.0]}),
         ("a.svg", {"times": "now"}),
@@ -332,7 +334,7 @@ def test_derivatives_are_refused_in_words(scenario):
 def test_a_search_is_resumed_and_stopped(tmp_path):
     (tmp_path / "base.toml").write_text(CART.read_text())
     text = (
-        'base = "base.toml"\nset = { "time.end" = "20 ms" }\n[[parameters]]\npath = "belts.lap.slack"\n'
+        'base = "base.toml"\nset = { "time.end" = "40 ms" }\n[[parameters]]\npath = "belts.lap.slack"\n'
         'range = { from = 0.2, to = 0.9 }\n[optimise]\nminimise = "belts.lap.peak"\nbudget = 12\n'
     )
     study = occupant.Study.from_text(text, folder=tmp_path)
@@ -368,5 +370,6 @@ def test_a_large_matrix_is_one_table(scenario):
     bad = scenario.batch(["path.speed"], [[float("nan")], ["fast"], [None], [300.0], [[1, 2]]])
     assert bad["status"] == ["refused"] * 3 + ["completed", "refused"] and all(bad["reason"][:3])
     assert np.isnan(bad["head.peak"][:3]).all() and np.isfinite(bad["head.peak"][3])
-    with pytest.raises(occupant.OccupantError):
-        scenario.batch(["nothing.here"], [[1.0]]) and scenario.batch(["a["], [[1.0]])["status"]
+    for odd in ("nothing.here", "a[", "", "*", "path.speed=1", "🙂"):
+        refused = scenario.batch([odd], [[1.0]])
+        assert refused["status"] == ["refused"] and refused["reason"][0], odd

@@ -244,7 +244,8 @@ impl Made<'_> {
             }
             let drawing = draw(frame);
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            bar.iter().for_each(|bar| bar.set_position(done));
+            // a film may draw a frame twice
+            bar.iter().for_each(|bar| bar.set_position(done.min(count as u64)));
             drawing.inspect_err(|reason| drop(undrawn.set(reason.clone())))
         };
         // a frame that cannot be drawn is mended otherwise than a film that cannot be written
