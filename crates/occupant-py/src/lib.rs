@@ -27,13 +27,14 @@ mod _occupant {
     #[pymodule_export]
     use super::scenario::Scenario;
     #[pymodule_export]
-    use super::study::Study;
+    use super::study::{Study, study_report};
     #[pymodule_export]
     use super::trouble::OccupantError;
     use pyo3::prelude::*;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        super::work::hear();
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -4,17 +4,20 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
 use occupant_core::results::summary::Summarizer;
-use occupant_files::base::{file_name, program};
+use occupant_files::base::{file_name, program, publish};
 use occupant_files::measured::MapArgument;
 use occupant_files::scenario::format_of;
 use occupant_files::table::Cell;
-use occupant_jobs::base::Failure;
-use occupant_jobs::files::study_folder::{Folder, NamedBy, Role, Row, Texts};
+use occupant_jobs::base::{Failure, Units};
+use occupant_jobs::files::study_folder::{Folder, NamedBy, Role, Row, Shard, Texts};
 use occupant_jobs::fit::fitting::Fitting;
 use occupant_jobs::fit::opening::Given;
 use occupant_jobs::optimise::Optimising;
 use occupant_jobs::search::Work;
+use occupant_jobs::study::{Wanted, answer, page};
 use occupant_jobs::sweep::Plan;
+use occupant_jobs::sweep::job::Sweep;
+use occupant_jobs::sweep::kept::chosen;
 use occupant_jobs::sweep::plan::study_text;
 use occupant_scenario::{Diagnostics, Draft};
 use occupant_study::engine::{Finished, NotBegun, Source};
@@ -67,7 +70,8 @@ impl Origin {
     }
 
     fn plan(&self) -> PyResult<Plan> {
-        let plan = Plan::on(&self.before, &self.path, &self.changes, &self.texts(), program());
+        let open = || Plan::on(&self.before, &self.path, &self.changes, &self.texts(), program());
+        let plan = Python::attach(|py| py.detach(open));
         let placed = || self.problems().err().filter(|all| all.has_errors());
         plan.map_err(|failure| placed().map_or_else(|| failed(failure), |all| refused(&all)))
     }
@@ -257,6 +261,42 @@ impl Study {
         })
     }
 
+    /// Runs all of it into `folder`, as `occupant sweep`: results.parquet, with `csv` results.csv too, and whole runs
+    /// where `keep` says so ("all", "3, 17" or "worst 5 by head.peak"; as the study says if None). An interrupted sweep
+    /// is resumed unless `restart`. `threads` and `progress` as of `run`. Gives the words that the command prints.
+    #[pyo3(signature = (folder, csv=false, keep=None, restart=false, threads=None, progress=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn sweep(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        csv: bool,
+        keep: Option<&str>,
+        restart: bool,
+        threads: Option<usize>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        self.plan()?;
+        let (progress, plan) = (Progress::of(py, progress, "runs")?, self.of.plan()?);
+        let keep = chosen(keep, &plan).map_err(failed)?;
+        work(py, progress, |interrupt| {
+            plan.refuse_hopeless()?;
+            let sweep = Sweep {
+                csv: csv || plan.study.csv,
+                folder: Folder::at(&folder),
+                engine: engine(threads)?,
+                interrupt: interrupt.clone(),
+                restart,
+                show: SHOW,
+                units: Units::of_scenario(plan.study.base.units()),
+                plan,
+                shard: Shard::WHOLE,
+                keep,
+            };
+            Ok(sweep.run()?.1)
+        })
+    }
+
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, own) = (slf.py(), slf.get());
         let texts = PyList::empty(py);
@@ -327,6 +367,34 @@ impl Study {
         });
         json_of(&found?, py)
     }
+}
+
+/// Writes the page of `occupant study report` on the sweep in `folder`: which inputs matter and how much, worst cases,
+/// what can be quoted. `path`: the page, FOLDER/report.html if None, with its tables beside it; `to`: results, such as
+/// "hic15" or "belts.*.peak", the customary ones if empty; `limits` beside those of rules, such as "hic15=700".
+/// Existing files are replaced only with `force`. `progress`: True for a bar of tqdm, or a function of the number of
+/// steps done and of all. Gives what the command prints with `--json`.
+#[pyfunction]
+#[pyo3(signature = (folder, path=None, to=Vec::new(), limits=Vec::new(), force=false, progress=None))]
+pub(crate) fn study_report(
+    py: Python<'_>,
+    folder: PathBuf,
+    path: Option<PathBuf>,
+    to: Vec<String>,
+    limits: Vec<String>,
+    force: bool,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Py<PyAny>> {
+    let progress = Progress::of(py, progress, "steps")?;
+    let (is_unasked, at) = (path.is_none(), path.unwrap_or_else(|| folder.join("report.html")));
+    let folders = [folder];
+    let report = work(py, progress, |_| {
+        let wanted = Wanted { folders: &folders, page: &at, to: &to, limits: &limits, force, is_unasked };
+        let report = wanted.write(Units::of_scenario, SHOW)?;
+        publish(&at, true, page(&report).as_bytes())?;
+        Ok(report)
+    });
+    json_of(&answer(&report?), py)
 }
 
 /// Runs of a plan, without files.

@@ -7,9 +7,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::{Duration, Instant};
 
+use log::{LevelFilter, Log, Metadata, Record};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_jobs::base::progress::Bar;
+use occupant_jobs::base::talk::TARGET;
 use occupant_jobs::base::{Failure, Interrupt, Show};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
@@ -160,6 +162,38 @@ pub(crate) fn work<T: Send>(
         raised = raised.or(progress.take());
     }
     raised.map_or(done, Err)
+}
+
+/// Passes messages of jobs to Python's logger `occupant`.
+struct Logger;
+
+impl Log for Logger {
+    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
+        metadata.target() == TARGET
+    }
+
+    fn log(&self, record: &Record<'_>) {
+        if !self.enabled(record.metadata()) {
+            return;
+        }
+        let text = record.args().to_string();
+        let level = if text.starts_with("warning") { "warning" } else { "info" };
+        Python::attach(|py| {
+            let logger = py.import("logging").and_then(|logging| logging.call_method1("getLogger", (TARGET,)));
+            // a message that nobody can hear is lost
+            let _heard = logger.and_then(|logger| logger.call_method1(level, (text,)));
+        });
+    }
+
+    fn flush(&self) {}
+}
+
+/// Passes messages of jobs to Python from now on.
+pub(crate) fn hear() {
+    // where the process has another logger, that one hears them
+    if log::set_logger(&Logger).is_ok() {
+        log::set_max_level(LevelFilter::Info);
+    }
 }
 
 /// Watches a run on the thread that called: Ctrl-C and an exception of the progress stop it.

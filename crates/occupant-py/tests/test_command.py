@@ -124,6 +124,33 @@ def test_a_table_is_that_of_a_sweep(command, tmp_path):
     ]
 
 
+def test_a_sweep_and_its_report_are_those_of_the_command(command, tmp_path):
+    (tmp_path / "base.toml").write_text(CART.read_text())
+    (tmp_path / "study.toml").write_text(STUDY)
+    command("sweep", "study.toml", "--output", "theirs", "--csv", "--keep", "1", "--quiet", cwd=tmp_path)
+    answer = json.loads(command("study", "report", "theirs", "--to", "head.peak", "--limit", "head.peak=50 g", "--json", cwd=tmp_path))
+    seen = []
+    study = occupant.Study(tmp_path / "study.toml")
+    own = tmp_path / "own"
+    assert "5 samples" in study.sweep(own, csv=True, keep="1", progress=lambda *now: seen.append(now))
+    assert seen[-1] == (5, 5)
+    assert (own / "runs/000001.mcap").read_bytes() == (tmp_path / "theirs/runs/000001.mcap").read_bytes()
+    tables = [(tmp_path / name / "columns.csv").read_bytes() for name in ("own", "theirs")]
+    assert tables[0] == tables[1]
+    same(occupant.study_report(own, to=["head.peak"], limits=["head.peak=50 g"]), answer)
+    assert (own / "report.html").stat().st_size > 10_000
+    # an earlier page of the same study is replaced, another file is not
+    occupant.study_report(own, to=["head.peak"])
+    (tmp_path / "other.html").write_text("mine")
+    with pytest.raises(occupant.OccupantError, match="exists"):
+        occupant.study_report(own, path=tmp_path / "other.html", to=["head.peak"])
+    for wrong in ({"keep": "some"}, {"keep": "9"}):
+        with pytest.raises(occupant.OccupantError, match="keep"):
+            study.sweep(tmp_path / "more", **wrong)
+    with pytest.raises(occupant.OccupantError, match="does not contain a sweep"):
+        occupant.study_report(tmp_path)
+
+
 def test_ratings_are_those_of_the_command(command, tmp_path):
     first = result(command, tmp_path, CART, "--until", "60 ms").rename(tmp_path / "first.mcap")
     second = result(command, tmp_path, CART, "--until", "60 ms", "--set", "path.speed=22 mph")

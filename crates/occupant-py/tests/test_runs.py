@@ -354,6 +354,13 @@ def test_a_search_is_resumed_and_stopped(tmp_path):
         study.optimise(folder=tmp_path / "full")
 
 
+def test_messages_go_to_the_logger(run, tmp_path, caplog):
+    with caplog.at_level("INFO", logger="occupant"):
+        occupant.view(run, tmp_path / "a.svg", times=[0.0])
+        occupant.compare(run, run, channels=["head.acceleration.x", "nothing*"])
+    assert any("part" in one.message or "nothing*" in one.message for one in caplog.records)
+
+
 def test_many_threads_share_a_run_and_a_scenario(scenario):
     run = scenario.run()
     with ThreadPoolExecutor(8) as pool:

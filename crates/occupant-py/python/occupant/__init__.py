@@ -7,7 +7,20 @@
 >>> run.measures["hic15"], run["head.acceleration.resultant"].max()
 """
 
-from ._occupant import LiveRun, OccupantError, Run, Scenario, Study, __version__, compare, film, read, report, view
+from ._occupant import (
+    LiveRun,
+    OccupantError,
+    Run,
+    Scenario,
+    Study,
+    __version__,
+    compare,
+    film,
+    read,
+    report,
+    study_report,
+    view,
+)
 
 __all__ = [
     "LiveRun",
@@ -20,5 +33,6 @@ __all__ = [
     "film",
     "read",
     "report",
+    "study_report",
     "view",
 ]

@@ -30,6 +30,14 @@ def compare(
 def report(
     *runs: Run | Path, path: Path, channels: Sequence[str] = ..., verdict: bool = False, force: bool = False
 ) -> None: ...
+def study_report(
+    folder: Path,
+    path: Path | None = None,
+    to: Sequence[str] = ...,
+    limits: Sequence[str] = ...,
+    force: bool = False,
+    progress: Progress = None,
+) -> dict[str, Any]: ...
 def view(
     source: Run | Scenario | Path,
     path: Path,
@@ -195,3 +203,12 @@ class Study:
         threads: int | None = None,
         progress: Progress = None,
     ) -> dict[str, Any]: ...
+    def sweep(
+        self,
+        folder: Path,
+        csv: bool = False,
+        keep: str | None = None,
+        restart: bool = False,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> str: ...
