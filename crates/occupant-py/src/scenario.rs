@@ -216,7 +216,7 @@ impl Scenario {
         threads: Option<usize>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        if !self.forces.is_empty() {
+        if self.has_forces() {
             return Err(plain(
                 "a batch of a scenario with forces of Python's; expected one without, or `run` for each",
             ));
@@ -315,6 +315,10 @@ impl Scenario {
         let mut scenario = Scenario { draft, text: Arc::new(text), changes: Vec::new(), forces: Vec::new() };
         changes.into_iter().try_for_each(|change| scenario.change(change))?;
         Ok(scenario)
+    }
+
+    pub(crate) fn has_forces(&self) -> bool {
+        !self.forces.is_empty()
     }
 
     /// Everything that its run needs.

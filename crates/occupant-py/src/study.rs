@@ -69,14 +69,23 @@ impl Origin {
         }
     }
 
+    /// What the base brings may be changed again.
     fn plan(&self) -> PyResult<Plan> {
-        let open = || Plan::on(&self.before, &self.path, &self.changes, &self.texts(), program());
+        self.opened(|| Plan::on(&self.before, &self.path, &self.changes, &self.texts(), program()))
+    }
+
+    /// The same for a folder, which has one list of changes.
+    fn kept_plan(&self) -> PyResult<Plan> {
+        self.opened(|| Plan::open(&self.path, &self.all_changes(), &self.texts(), program()))
+    }
+
+    fn opened(&self, open: impl FnOnce() -> Result<Plan, Failure> + Send) -> PyResult<Plan> {
         let plan = Python::attach(|py| py.detach(open));
         let placed = || self.problems().err().filter(|all| all.has_errors());
         plan.map_err(|failure| placed().map_or_else(|| failed(failure), |all| refused(&all)))
     }
 
-    /// All changes, for searches: of what the base brings, what the study does not set.
+    /// All changes as one list: of what the base brings, what the study does not set.
     fn all_changes(&self) -> Vec<String> {
         let set = study_text(&self.path, &self.texts()).map(|text| text.section.set).unwrap_or_default();
         let is_set = |change: &String| change.split_once('=').is_some_and(|(path, _)| set.contains_key(path.trim()));
@@ -113,16 +122,21 @@ fn origin(source: &Bound<'_, PyAny>, folder: &Path, given: Option<&Bound<'_, PyA
         std::fs::metadata(&path)?;
         return Ok(Origin { path, texts: Vec::new(), before: Vec::new(), changes: changes(given)? });
     };
-    let (dict, mut texts, mut before) = (dict.copy()?, Vec::new(), Vec::new());
+    let (dict, mut bases, mut before) = (dict.copy()?, Vec::new(), Vec::new());
     if let Some(base) = dict.get_item("base")?.filter(|base| !base.is_instance_of::<PyString>()) {
         let base = scenario_of(&base)?;
+        if base.has_forces() {
+            let found = "a study of a scenario with forces of Python's; expected one without, or `run` for each";
+            return Err(plain(found));
+        }
         let name = std::path::absolute(&base.text.path)?.display().to_string();
         dict.set_item("base", &name)?;
-        texts.push((NamedBy::StudyAsBase, name, base.text.bytes.clone()));
+        bases.push((NamedBy::StudyAsBase, name, base.text.bytes.clone()));
         before = base.changes;
     }
     let name = named("study", "json")?;
-    texts.push((NamedBy::CommandLine, name.clone(), json(&dict)?.into_bytes()));
+    // the study is the first of its texts
+    let texts = [vec![(NamedBy::CommandLine, name.clone(), json(&dict)?.into_bytes())], bases].concat();
     Ok(Origin { path: folder.join(name), texts, before, changes: changes(given)? })
 }
 
@@ -277,7 +291,7 @@ impl Study {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<String> {
         self.plan()?;
-        let (progress, plan) = (Progress::of(py, progress, "runs")?, self.of.plan()?);
+        let (progress, plan) = (Progress::of(py, progress, "runs")?, self.of.kept_plan()?);
         let keep = chosen(keep, &plan).map_err(failed)?;
         work(py, progress, |interrupt| {
             plan.refuse_hopeless()?;

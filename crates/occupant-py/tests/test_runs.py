@@ -149,6 +149,22 @@ def test_a_study_is_a_dict_with_any_design(scenario, tmp_path):
     assert {"name": "input.speed", "unit": "m/s", "role": "input"} in changed.columns
 
 
+def test_a_study_in_memory_is_swept_into_a_folder(scenario, tmp_path):
+    scenario["belts.lap.slack"] = 0.9
+    study = occupant.Study({**DESIGN, "base": scenario})
+    study.sweep(tmp_path / "out", keep="all")
+    kept = occupant.read(tmp_path / "out/runs/000002.mcap")
+    assert kept.measures["hic15"] == study.run()["hic15"][2]
+    assert occupant.study_report(tmp_path / "out", to=["head.peak"])
+    # a second time it is there already, another study is refused
+    study.sweep(tmp_path / "out")
+    with pytest.raises(occupant.OccupantError, match="another|other"):
+        occupant.Study({**DESIGN, "seed": 4, "base": scenario}).sweep(tmp_path / "out")
+    scenario.add_force("lift", ["head"], push)
+    with pytest.raises(occupant.OccupantError, match="forces of Python"):
+        occupant.Study({**DESIGN, "base": scenario})
+
+
 def whole(scenario):
     import tomllib
 
