@@ -123,7 +123,9 @@ fn origin(source: &Bound<'_, PyAny>, folder: &Path, given: Option<&Bound<'_, PyA
         return Ok(Origin { path, texts: Vec::new(), before: Vec::new(), changes: changes(given)? });
     };
     let (dict, mut bases, mut before) = (dict.copy()?, Vec::new(), Vec::new());
-    if let Some(base) = dict.get_item("base")?.filter(|base| !base.is_instance_of::<PyString>()) {
+    let is_name =
+        |base: &Bound<'_, PyAny>| base.is_instance_of::<PyString>() || base.hasattr("__fspath__").unwrap_or_default();
+    if let Some(base) = dict.get_item("base")?.filter(|base| !is_name(base)) {
         let base = scenario_of(&base)?;
         if base.has_forces() {
             let found = "a study of a scenario with forces of Python's; expected one without, or `run` for each";

@@ -131,6 +131,7 @@ def test_a_study_is_a_dict_with_any_design(scenario, tmp_path):
     tables = [
         occupant.Study({**DESIGN, "base": str(base)}).run(),
         occupant.Study({**DESIGN, "base": "base.toml"}, folder=tmp_path).run(),
+        occupant.Study({**DESIGN, "base": Path("base.toml"), "seed": np.int64(3)}, folder=tmp_path).run(),
         occupant.Study({**DESIGN, "base": scenario}).run(),
         occupant.Study({**DESIGN, "base": {"title": "a", **whole(scenario)}}).run(),
     ]
@@ -142,6 +143,10 @@ def test_a_study_is_a_dict_with_any_design(scenario, tmp_path):
     changed = occupant.Study({**DESIGN, "base": scenario})
     assert (changed.run()["belts.lap.peak"] != tables[0]["belts.lap.peak"]).all()
     assert changed.scenario(2)["belts.lap.slack"] == 0.9 and changed.scenario(2)["time.end"] == "40 ms"
+    speeds = np.linspace(5.0, 8.0, 3)
+    listed = [{"name": "speed", "path": "path.speed", "list": speeds}]
+    grid = occupant.Study({"base": scenario, "design": {"kind": "full_factorial"}, "parameters": listed})
+    np.testing.assert_allclose([grid.sample(i)["speed"] for i in range(3)], speeds, rtol=1e-9)
     # what the study sets holds over what its base brings
     assert changed.scenario(0).run().measures["hic15"] == changed.run()["hic15"][0]
     set_too = occupant.Study({**DESIGN, "base": scenario, "set": {"belts.lap.slack": 0.2, "time.end": "10 ms"}})
@@ -182,7 +187,7 @@ def test_a_wrong_study_says_where(tmp_path):
         occupant.Study.from_text(text.replace("base.toml", "none.toml"), folder=tmp_path)
     with pytest.raises(FileNotFoundError):
         occupant.Study(tmp_path / "none.toml")
-    for wrong in ({}, {"base": 3}, {"base": None}, {"base": CART}, {**DESIGN}, {"base": str(CART), "desgin": 1}):
+    for wrong in ({}, {"base": 3}, {"base": None}, {**DESIGN}, {**DESIGN, "base": str(CART), "seed": float("nan")}, {"base": str(CART), "desgin": 1}):
         with pytest.raises((occupant.OccupantError, TypeError)):
             occupant.Study(wrong)
     search = occupant.Study.from_text(
