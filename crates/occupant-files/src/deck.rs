@@ -7,6 +7,7 @@ use cardio_legacy::{CompartmentLayout, Conversion, ConvertOptions, Deck, ParseOp
 use crate::base::{Failure, file_name, input_file};
 
 /// A deck converted to a scenario.
+#[derive(Clone, Debug)]
 pub struct FromDeck {
     /// The scenario.
     pub toml: String,

@@ -41,10 +41,12 @@ pub struct Opened {
 
 /// A scenario text with the changes applied.
 pub struct Source {
-    bytes: Vec<u8>,
+    /// The bytes of the file.
+    pub bytes: Vec<u8>,
     /// The text with the changes.
     pub draft: Draft,
-    deck: Option<FromDeck>,
+    /// The deck that it was converted from.
+    pub deck: Option<FromDeck>,
 }
 
 /// Reads the scenario, applies the changes and builds the model.

@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::own::{Force, OwnForce, Place, Pushes, Scene};
 use occupant_core::model::setup::Setup;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::PyList;
+use pyo3::types::{PyList, PyTuple};
 
 use crate::live::Trouble;
 use crate::trouble::plain;
@@ -43,6 +44,16 @@ impl Where {
         })
     }
 
+    /// As [`Where::of`] reads it.
+    fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match self {
+            Where::Sphere(name) => name.into_bound_py_any(py),
+            Where::Segment(name, point) => (name, *point).into_bound_py_any(py),
+            Where::Vehicle(point) => ("vehicle", *point).into_bound_py_any(py),
+            Where::Space(point) => ("space", *point).into_bound_py_any(py),
+        }
+    }
+
     fn place(&self, setup: &Setup) -> PyResult<Place> {
         match self {
             Where::Sphere(name) => {
@@ -61,6 +72,12 @@ impl Where {
 }
 
 impl Brought {
+    /// What `Scenario.add_force` takes.
+    pub(crate) fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let places = self.places.iter().map(|one| one.given(py)).collect::<PyResult<Vec<_>>>()?;
+        (&self.name, places, &self.function).into_pyobject(py)
+    }
+
     /// The force in the form of a setup.
     pub(crate) fn own(&self, py: Python<'_>, setup: &Setup, trouble: Trouble) -> PyResult<OwnForce> {
         let places = self.places.iter().map(|one| one.place(setup)).collect::<PyResult<Vec<_>>>()?;

@@ -78,16 +78,16 @@ impl LiveRun {
         self.run.known_until_s()
     }
 
-    /// Gives the vehicle's motion up to `until`, s: acceleration of its c.g., m/s², and angular acceleration, rad/s²,
-    /// along the fixed axes x forward, y right, z down.
+    /// Gives the vehicle's motion up to `until`, s: `acceleration` of its c.g., m/s², and `angular` acceleration,
+    /// rad/s², along the fixed axes x forward, y right, z down.
     #[pyo3(signature = (until, acceleration, angular=[0.0; 3]))]
     fn push(&mut self, until: f64, acceleration: [f64; 3], angular: [f64; 3]) -> PyResult<()> {
         let input = VehicleInput::Acceleration { linear_m_s2: acceleration.into(), angular_rad_s2: angular.into() };
         self.run.push(until, &input).map_err(plain)
     }
 
-    /// Gives the vehicle's state at `until`, s: position, m, roll, pitch and yaw, rad, velocity, m/s, and the rates of
-    /// the angles, rad/s.
+    /// Gives the vehicle's state at `until`, s: its `place`, m, `velocity`, m/s, `attitude` (roll, pitch and yaw), rad,
+    /// and the `rates` of these angles, rad/s.
     #[pyo3(signature = (until, place, velocity, attitude=[0.0; 3], rates=[0.0; 3]))]
     fn push_state(
         &mut self,
@@ -108,8 +108,8 @@ impl LiveRun {
         py.detach(|| run.advance_to(to_s)).map_err(|error| raised(&self.trouble, error))
     }
 
-    /// Applies an impulse to a segment, N·s, space axes (x forward, y left, z up), at a point from the segment's lower
-    /// end, m.
+    /// Applies an `impulse` to a `segment`, N·s, space axes (x forward, y left, z up), at a point `at` from the
+    /// segment's lower end, m.
     #[pyo3(signature = (segment, impulse, at=[0.0; 3]))]
     fn kick(&mut self, segment: &str, impulse: [f64; 3], at: [f64; 3]) -> PyResult<()> {
         let tree = self.model.body().tree;

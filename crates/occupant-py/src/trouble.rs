@@ -1,5 +1,6 @@
 //! Errors as exceptions.
 
+use occupant_jobs::base::Failure;
 use occupant_scenario::Diagnostics;
 use placed_text::Severity;
 use pyo3::create_exception;
@@ -17,12 +18,21 @@ create_exception!(
 
 /// A one-line problem.
 pub(crate) fn plain(message: impl std::fmt::Display) -> PyErr {
-    OccupantError::new_err(message.to_string())
+    told(message.to_string(), &Diagnostics::new())
 }
 
 /// All problems, with their positions.
 pub(crate) fn refused(diagnostics: &Diagnostics) -> PyErr {
-    let error = OccupantError::new_err(diagnostics.to_string());
+    told(diagnostics.to_string(), diagnostics)
+}
+
+/// The failure of a job, with the message of the command.
+pub(crate) fn failed(failure: Failure) -> PyErr {
+    plain(failure.words())
+}
+
+fn told(message: String, diagnostics: &Diagnostics) -> PyErr {
+    let error = OccupantError::new_err(message);
     Python::attach(|py| {
         // an exception takes any attribute
         let _ = problems(py, diagnostics).and_then(|list| error.value(py).setattr("problems", list));

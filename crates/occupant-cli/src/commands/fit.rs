@@ -5,18 +5,11 @@ use std::path::PathBuf;
 use super::flags::sweep::{EngineArgs, folder_of};
 use crate::base::{Failure, json, listen, print, program, progress, quoted, say};
 use occupant_files::measured::MapArgument;
-use occupant_jobs::files::study_folder::checksums::Checksums;
 use occupant_jobs::files::study_folder::folder::Folder;
-use occupant_jobs::files::study_folder::journal::Journal;
-use occupant_jobs::files::study_folder::shard::Shard;
 use occupant_jobs::fit::fitting::Fitting;
-use occupant_jobs::fit::identified::search;
 use occupant_jobs::fit::opening::Given;
-use occupant_jobs::fit::output::Output;
-use occupant_jobs::fit::report;
-use occupant_jobs::search::{Evaluator, Progress};
-use occupant_jobs::sweep::stored::sha256_of;
-use occupant_jobs::sweep::words::{tell_damaged, warn_unlocked};
+use occupant_jobs::fit::{fit as fit_in, report};
+use occupant_jobs::search::Work;
 
 /// Fit the parameters of a study to a test
 ///
@@ -74,22 +67,9 @@ pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
         fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }
     let folder = Folder::of_fit(&args.output.clone().map_or_else(|| folder_of(&args.study), Ok)?);
-    let sha256 = sha256_of(&fitting.manifest)?;
-    let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
-    warn_unlocked(&held, "fitting into one folder", args.quiet);
-    let sums = Checksums::open(&folder.path, |_| true)?;
     let interrupt = listen("stopping; press Ctrl-C again to stop at once");
-    let progress = Progress::new(fitting.fit.budget, progress::show(args.quiet));
-    let mut evaluator = Evaluator::new(&fitting, (&folder, &sums), &sha256, &engine, &interrupt, progress)?;
-    tell_damaged(&[held.mended, sums.damaged()].concat());
-    if evaluator.known() > 0 && !args.quiet {
-        say(&format!("resuming: {} runs are finished", evaluator.known()));
-    }
-    let answer = search(&fitting, &mut evaluator)?;
-    let records = evaluator.close()?;
-    let found = Output { fitting: &fitting, folder: &folder, sums: &sums }.write(&answer, &records)?;
-    Journal::list(&folder, Shard::WHOLE, &sums)?;
-    sums.close()?;
+    let (engine, interrupt, show) = (&engine, &interrupt, progress::show(args.quiet));
+    let found = fit_in(&fitting, &folder, &Work { engine, interrupt, show, restart: args.restart })?;
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?),
         (false, true) => Ok(()),

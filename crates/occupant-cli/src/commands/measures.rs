@@ -2,15 +2,13 @@
 
 mod test;
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
 use crash_measures::signal::CfcFamily;
-use occupant_core::results::summary::{Caveat, Person, Summary};
+use occupant_core::results::summary::Person;
 use placed_text::shown;
-use serde::Serialize;
 
 use super::flags::history::{TestArgs, interval};
 use super::tables::measures::{remarks, risks, side_by_side, table};
@@ -19,10 +17,7 @@ use crate::base::progress::Progress;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
 use occupant_files::results::Results;
 use occupant_jobs::files::history::{FAMILIES, family_name};
-use occupant_jobs::judged::Impact;
-
-/// Sample interval of filtered channels, s: the 10 kHz of SAE J211.
-const FILTERED_S: f64 = 1e-4;
+use occupant_jobs::measures::{Asked, DUMMIES, FILTERS, Judged, options};
 
 /// Print injury measures of runs and tests, with limits and risk curves
 ///
@@ -74,146 +69,46 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// Filters: names on the command line, names in help.
-const FILTERS: [(&str, &str, Asked); 4] = [
-    ("none", "No filter", Asked::None),
-    ("j211", "The SAE J211 class of each signal", Asked::Classes(None)),
-    ("sae-j211", "The same with SAE J211 coefficients (older spelling)", Asked::Classes(Some(CfcFamily::SaeJ211))),
-    ("iso6487", "The same with ISO 6487 coefficients (older spelling)", Asked::Classes(Some(CfcFamily::Iso6487))),
-];
-
-/// Requested filter, and the coefficients that an old name implies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Asked {
-    None,
-    Classes(Option<CfcFamily>),
-}
-
 impl Args {
-    fn filtering(&self) -> Filtering {
-        match self.filter {
-            Asked::None => Filtering::None,
-            Asked::Classes(family) => Filtering::Classes(family.unwrap_or(self.coefficients)),
-        }
-    }
-}
-
-/// Dummies: names on the command line, names in help.
-const DUMMIES: [(&str, &str, Dummy); 11] = [
-    ("hybrid-iii-50m", "Hybrid III, 50th percentile male", Dummy::HybridIii50M),
-    ("hybrid-iii-5f", "Hybrid III, 5th percentile female", Dummy::HybridIii5F),
-    ("thor-50m", "THOR, 50th percentile male", Dummy::Thor50M),
-    ("hybrid-iii-95m", "Hybrid III, 95th percentile male", Dummy::HybridIii95M),
-    ("eurosid-1", "EuroSID-1, side impact", Dummy::EuroSid1),
-    ("es-2", "ES-2, side impact", Dummy::Es2),
-    ("es-2re", "ES-2re, side impact", Dummy::Es2Re),
-    ("sid-iis", "SID-IIs, 5th percentile female, side impact", Dummy::SidIis),
-    ("worldsid-50m", "WorldSID, 50th percentile male, side impact", Dummy::WorldSid50M),
-    ("worldsid-5f", "WorldSID, 5th percentile female, side impact", Dummy::WorldSid5F),
-    ("biorid-ii", "BioRID-II, rear impact", Dummy::BioRidIi),
-];
-
-#[derive(Serialize)]
-struct Answer<'a> {
-    file: &'a str,
-    title: &'a str,
-    complete: bool,
-    /// Time span of the file's outputs, s.
-    covers_s: [f64; 2],
-    dummy: &'static str,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    occupant: &'a str,
-    measures: &'a [Measure],
-    /// Measures of the other occupants.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    others: BTreeMap<&'a str, &'a [Measure]>,
-    caveats: &'a [Caveat],
-    notes: &'a [String],
-}
-
-/// A run with its measures.
-struct Judged {
-    file: String,
-    results: Results,
-    summary: Summary,
-    interval_ms: f64,
-    notes: Vec<String>,
-}
-
-impl Judged {
-    fn of(file: &Path, again_s: Option<f64>, options: Options, asked: Option<UnitsArg>) -> Result<Self, Failure> {
-        let results = Results::open(file)?;
-        // JSON is in SI units
-        let units = asked.map_or(Units::default(), |asked| asked.or(results.loaded.scenario.units));
-        let own_s = results.readings_s();
-        let needed_s = (options.filtering != Filtering::None && own_s > 1.01 * FILTERED_S).then_some(FILTERED_S);
-        // readings that the file has need no other run
-        let again_s = again_s.or(needed_s).filter(|again_s| (again_s / own_s - 1.0).abs() > 1e-9);
-        let [own_ms, interval_ms] = [own_s, again_s.unwrap_or(own_s)].map(|s| (1e9 * s).round() / 1e6);
-        let mut notes = results.notes();
-        let mut impact = Impact::default();
-        let mut summary = match again_s {
-            None => results.summary_judged(options, &mut impact)?,
-            Some(interval_s) => {
-                notes.push(format!(
-                    "running the case again with samples every {interval_ms} ms; the file has one every {own_ms} ms"
-                ));
-                results.summary_again(options, interval_s, (&mut impact, Progress::new(false)))?
-            }
-        };
-        // a dummy that was asked for has its limits, whatever the direction
-        if options.by_size {
-            impact.judge(&mut summary, &results.model);
-            notes.extend(impact.reasons(units));
-        }
-        Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
-    }
-
-    /// Requested units, else those of its scenario.
-    fn units(&self, args: &Args) -> Units {
-        args.units.or(self.results.loaded.scenario.units)
-    }
-
-    fn answer(&self) -> Answer<'_> {
-        Answer {
-            file: &self.file,
-            title: &self.results.model.setup().title,
-            complete: self.results.is_complete(),
-            covers_s: self.results.covers_s(),
-            dummy: self.summary.dummy,
-            occupant: self.summary.occupant,
-            measures: &self.summary.measures,
-            others: self.summary.others.iter().map(|(name, person)| (*name, &person.measures[..])).collect(),
-            caveats: &self.summary.caveats,
-            notes: &self.notes,
-        }
+    fn options(&self) -> Options {
+        options(self.filter, self.coefficients, self.dummy)
     }
 }
 
 /// Prints the measures of runs.
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
-    let filtered = Options { filtering: args.filtering(), ..Options::default() };
-    let options = args.dummy.map_or(filtered, |dummy| filtered.with(dummy));
+    let options = args.options();
     if args.runs.iter().any(|file| test::is_test(file)) {
         return test::measures(args, &options);
     }
     test::refuse_flags(args)?;
-    let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options, (!args.json).then_some(args.units)));
+    let judged = |file: &PathBuf| {
+        let results = Results::open(file)?;
+        // JSON is in SI units
+        let units = if args.json { Units::default() } else { args.units.or(results.loaded.scenario.units) };
+        Judged::of(results, args.interval, options, units, Progress::new(false))
+    };
+    let all = args.runs.iter().map(judged);
     let all = all.collect::<Result<Vec<_>, _>>()?;
     if args.json {
         let answers: Vec<_> = all.iter().map(Judged::answer).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
     } else if let [one] = &all[..] {
         one.notes.iter().for_each(note);
-        print(&text(one, &options, (one.units(args), args.verdict)))?;
+        print(&text(one, &options, (units(one, args), args.verdict)))?;
     } else {
         all.iter().for_each(|one| one.notes.iter().for_each(|text| note(&format!("{}: {text}", one.file))));
-        let units = all.first().map_or(Units::default(), |one| one.units(args));
+        let units = all.first().map_or(Units::default(), |one| units(one, args));
         print(&texts(&all, &options, units))?;
     }
     let others = all.iter().flat_map(|one| one.summary.others.values()).flat_map(|person| &person.measures);
     let exceeded = all.iter().flat_map(|one| &one.summary.measures).chain(others).any(Measure::is_exceeded);
     Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
+}
+
+/// Requested units, else those of its scenario.
+fn units(one: &Judged, args: &Args) -> Units {
+    args.units.or(one.results.loaded.scenario.units)
 }
 
 /// Several runs, numbered, in one table.

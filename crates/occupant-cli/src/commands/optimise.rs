@@ -4,14 +4,9 @@ use std::path::PathBuf;
 
 use super::flags::sweep::{EngineArgs, folder_of};
 use crate::base::{Done, Failure, json, listen, print, program, progress, quoted, say};
-use occupant_jobs::files::study_folder::checksums::Checksums;
 use occupant_jobs::files::study_folder::folder::Folder;
-use occupant_jobs::files::study_folder::journal::Journal;
-use occupant_jobs::files::study_folder::shard::Shard;
-use occupant_jobs::optimise::{Optimising, output, search, text};
-use occupant_jobs::search::{Evaluator, Progress};
-use occupant_jobs::sweep::stored::sha256_of;
-use occupant_jobs::sweep::words::{tell_damaged, warn_unlocked};
+use occupant_jobs::optimise::{Optimising, optimise as optimise_in, text};
+use occupant_jobs::search::Work;
 
 /// Find the parameters with which a measure is smallest
 ///
@@ -59,22 +54,9 @@ pub(crate) fn optimise(args: &Args) -> Result<Done, Failure> {
         of.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }
     let folder = Folder::of_optimum(&args.output.clone().map_or_else(|| folder_of(&args.study), Ok)?);
-    let sha256 = sha256_of(&of.manifest)?;
-    let held = folder.claim(&of.manifest, &of.texts, Shard::WHOLE, args.restart)?;
-    warn_unlocked(&held, "optimising into one folder", args.quiet);
-    let sums = Checksums::open(&folder.path, |_| true)?;
     let interrupt = listen("stopping; press Ctrl-C again to stop at once");
-    let progress = Progress::new(of.optimise.budget, progress::show(args.quiet));
-    let mut evaluator = Evaluator::new(&of, (&folder, &sums), &sha256, &engine, &interrupt, progress)?;
-    tell_damaged(&[held.mended, sums.damaged()].concat());
-    if evaluator.known() > 0 && !args.quiet {
-        say(&format!("resuming: {} runs are finished", evaluator.known()));
-    }
-    let answer = search(&of, &mut evaluator)?;
-    let records = evaluator.close()?;
-    let found = output::write(&of, (&folder, &sums), &answer, &records)?;
-    Journal::list(&folder, Shard::WHOLE, &sums)?;
-    sums.close()?;
+    let (engine, interrupt, show) = (&engine, &interrupt, progress::show(args.quiet));
+    let found = optimise_in(&of, &folder, &Work { engine, interrupt, show, restart: args.restart })?;
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?)?,
         (false, true) => {}

@@ -13,6 +13,7 @@ use occupant_jobs::files::scenario::warn;
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::texts::Texts;
 use occupant_jobs::sweep::job::Sweep;
+use occupant_jobs::sweep::kept;
 use occupant_jobs::sweep::plan::Plan;
 
 /// Run every sample of a study and write one table of results
@@ -100,7 +101,7 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
     let (shard, told_by) = flags::shard(args.shard.as_deref())?;
     let texts = Texts::of_files(study);
     let plan = Plan::open(study, &args.overrides, &texts, program())?;
-    let keep = flags::keep(args.keep.as_deref(), &plan)?;
+    let keep = kept::chosen(args.keep.as_deref(), &plan)?;
     if args.restart && !shard.is_whole() {
         return Err(Failure::with_help(
             "--restart with a shard would remove the results of the others",

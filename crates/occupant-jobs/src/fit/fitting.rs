@@ -69,11 +69,19 @@ impl Fitting {
     /// # Errors
     /// All problems, as text.
     pub fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, Failure> {
-        let (shown, texts) = (name.display().to_string(), Texts::of_files(name));
-        let text = study_text(name, &texts)?;
+        Fitting::of(name, given, &Texts::of_files(name), program)
+    }
+
+    /// The same from these texts.
+    ///
+    /// # Errors
+    /// As [`Fitting::open`].
+    pub fn of(name: &Path, given: &Given<'_>, texts: &Texts, program: String) -> Result<Fitting, Failure> {
+        let shown = name.display().to_string();
+        let text = study_text(name, texts)?;
         let fit = text.fit().map_err(|problems| refused(&shown, &problems))?;
         let folder = name.parent().unwrap_or(Path::new(""));
-        let mut opening = Opening::new(folder, &text, &texts, given);
+        let mut opening = Opening::new(folder, &text, texts, given);
         let tests = opening.tests(&fit);
         let Opening { problems, mut experiments, mut warnings, .. } = opening;
         if !problems.is_empty() || experiments.is_empty() {
@@ -87,7 +95,7 @@ impl Fitting {
         let bounds = bounds.ok_or_else(|| Failure::plain("a parameter without a range"))?;
         let tests = name_fitted(&mut experiments, tests);
         let samples = experiments.len() as u64 * fit.budget.saturating_add(ON_TOP);
-        let (manifest, texts) = manifest(&text, &texts, given, samples, program);
+        let (manifest, texts) = manifest(&text, texts, given, samples, program);
         let overrides = given.overrides.to_vec();
         Ok(Fitting { fit, experiments, tests, parameters, bounds, overrides, manifest, texts, warnings })
     }

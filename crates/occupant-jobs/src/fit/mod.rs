@@ -25,9 +25,28 @@ use experiment::{Correction, Experiment};
 use fitting::{Fitting, Test};
 use identified::{Answer, Near};
 use output::FittedRuns;
-use result::{COMPENSATING, FitResult, IntervalEnd, ParameterEstimate};
+use result::{COMPENSATING, IntervalEnd, ParameterEstimate};
 use scenario_text::Fitted;
 use target::{FAMILY, Target};
 use verdict::Verdict;
 
-use crate::search::{Evaluator, Objective, Record, WORST};
+use crate::base::Failure;
+use crate::files::study_folder::Folder;
+use crate::search::{Evaluator, Objective, Record, WORST, Work, in_folder};
+
+pub use result::FitResult;
+
+/// Fits in a folder.
+///
+/// # Errors
+/// As [`in_folder`].
+pub fn fit(of: &Fitting, folder: &Folder, work: &Work<'_>) -> Result<FitResult, Failure> {
+    in_folder(
+        (of, &of.texts),
+        (of.fit.budget, "fitting into one folder"),
+        folder,
+        work,
+        |evaluator| identified::search(of, evaluator),
+        |answer, records, sums| output::Output { fitting: of, folder, sums }.write(answer, records),
+    )
+}

@@ -19,3 +19,22 @@ pub use measures::Measures;
 pub use optimising::Optimising;
 pub use result::Optimum;
 pub use searched::search;
+
+use crate::base::Failure;
+use crate::files::study_folder::Folder;
+use crate::search::{Work, in_folder};
+
+/// Optimises in a folder.
+///
+/// # Errors
+/// As [`in_folder`].
+pub fn optimise(of: &Optimising, folder: &Folder, work: &Work<'_>) -> Result<Optimum, Failure> {
+    in_folder(
+        (of, &of.texts),
+        (of.optimise.budget, "optimising into one folder"),
+        folder,
+        work,
+        |evaluator| search(of, evaluator),
+        |answer, records, sums| output::write(of, (folder, sums), answer, records),
+    )
+}

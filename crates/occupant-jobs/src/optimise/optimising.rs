@@ -53,11 +53,19 @@ impl Optimising {
     /// # Errors
     /// All problems, as text.
     pub fn open(name: &Path, overrides: &[String], program: String) -> Result<Optimising, Failure> {
-        let (shown, texts) = (name.display().to_string(), Texts::of_files(name));
-        let text = study_text(name, &texts)?;
+        Optimising::of(name, overrides, &Texts::of_files(name), program)
+    }
+
+    /// The same from these texts.
+    ///
+    /// # Errors
+    /// As [`Optimising::open`].
+    pub fn of(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Optimising, Failure> {
+        let shown = name.display().to_string();
+        let text = study_text(name, texts)?;
         let refuse = |problems: Diagnostics| refused(&shown, &problems);
         let optimise = text.optimise().map_err(refuse)?;
-        let (experiment, warnings) = scenario(name, &text, &texts, overrides)?;
+        let (experiment, warnings) = scenario(name, &text, texts, overrides)?;
         let study = &experiment.study;
         let bounds: Option<Vec<Bounds>> = study.parameters.iter().map(|p| p.law.bounds()).collect();
         // bind_optimise has refused parameters without ends

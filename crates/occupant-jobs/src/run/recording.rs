@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::error::Error;
+use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
@@ -71,29 +72,15 @@ impl Recording {
         from: Option<&Resumption>,
     ) -> Result<Self, Failure> {
         let overrides = &args.overrides;
-        let mut about = about(&file_name(&args.scenario), &opened.bytes, overrides, &opened.loaded)?;
-        if opened.deck.is_some() {
-            about.scenario.media_type = "text/plain".to_owned();
-        }
+        let mut about = about_run(&file_name(&args.scenario), overrides, opened)?;
         if let Some(from) = from {
             from.keep_from(name, &partial_path(name))?;
             about.notes.extend(from.notes());
         }
         inputs(&args.scenario, &opened.loaded).iter().try_for_each(|input| refuse_input(name, input))?;
-        let tables = opened.loaded.tables();
         let file = PartialFile::create(name, existing)?.that_stays();
         let partial = file.partial_path().to_owned();
-        let recorder = McapRecorder::new(file, about, McapOptions::default());
-        let recorder = recorder.map_err(|e| unwritten(&partial, &e))?;
-        let attached = |recorder: McapRecorder<_>, (name, text): &(&str, &str)| {
-            // by its name alone, where no other has the same in another folder
-            let short = |name: &str| file_name(Path::new(name));
-            let is_only = tables.iter().filter(|(other, _)| short(other) == short(name)).count() == 1;
-            let name = if is_only { short(name) } else { name.to_string() };
-            let kind = if ending(Path::new(&name)) == "toml" { "application/toml" } else { "text/csv" };
-            recorder.with_table(document(&name, kind, text.as_bytes().to_vec()))
-        };
-        let recorder = tables.iter().fold(recorder, attached);
+        let recorder = recorder(file, about, &opened.loaded).map_err(|e| unwritten(&partial, &e))?;
         Ok(Recording(Some(Open { partial, recorder })))
     }
 
@@ -185,6 +172,40 @@ pub fn about(name: &str, bytes: &[u8], overrides: &[String], loaded: &Loaded) ->
         resolved: Some(document(RESOLVED, "application/toml", resolved.into_bytes())),
         notes,
     })
+}
+
+/// The same of an opened scenario, or of the deck in its place.
+///
+/// # Errors
+/// A scenario that a result file cannot hold.
+pub fn about_run(name: &str, overrides: &[String], opened: &Opened) -> Result<About, Failure> {
+    let mut about = about(name, &opened.bytes, overrides, &opened.loaded)?;
+    if opened.deck.is_some() {
+        about.scenario.media_type = "text/plain".to_owned();
+    }
+    Ok(about)
+}
+
+/// A recorder into `target`, with the tables that the scenario refers to.
+///
+/// # Errors
+/// An error of `target`.
+pub fn recorder<W: Write + Seek + Send + 'static>(
+    target: W,
+    about: About,
+    loaded: &Loaded,
+) -> Result<McapRecorder<W>, impl Error + use<W>> {
+    let tables = loaded.tables();
+    let attached = |recorder: McapRecorder<_>, (name, text): &(&str, &str)| {
+        // by its name alone, where no other has the same in another folder
+        let short = |name: &str| file_name(Path::new(name));
+        let is_only = tables.iter().filter(|(other, _)| short(other) == short(name)).count() == 1;
+        let name = if is_only { short(name) } else { name.to_string() };
+        let kind = if ending(Path::new(&name)) == "toml" { "application/toml" } else { "text/csv" };
+        recorder.with_table(document(&name, kind, text.as_bytes().to_vec()))
+    };
+    let recorder = McapRecorder::new(target, about, McapOptions::default());
+    recorder.map(|recorder| tables.iter().fold(recorder, attached))
 }
 
 /// A text to be stored with the results.

@@ -1,6 +1,6 @@
 //! Every value that the scenario or a change sets, with its line and the value that holds without it.
 
-use crate::keys::Key;
+use crate::keys::{Key, key_of};
 use occupant_files::results::Results;
 use occupant_scenario::{Draft, Format, rival_path, schema};
 use placed_text::{Document, Node, Step, Value, children, follow, parse_path, to_text};
@@ -41,16 +41,9 @@ fn explain(inputs: &mut [Input]) {
     let keys = Key::root(schema()).all();
     let set: Vec<(String, String)> = inputs.iter().map(|own| (own.path.clone(), own.value.clone())).collect();
     for input in inputs {
-        let section = input.path.rsplit_once('.').map_or("", |(section, _)| section);
-        let is_set = |key: &&Key<'_>| {
-            let kind = key.variant.as_deref().and_then(|variant| variant.split_once(" = "));
-            kind.is_none_or(|(of, word)| {
-                set.iter().any(|(path, value)| *path == format!("{section}.{of}") && value == word)
-            })
-        };
-        let own = keys.iter().filter(|key| key.is_at(&input.path));
-        let own = own.clone().find(is_set).or(own.clone().next());
-        input.meaning = own.map(Key::meaning).unwrap_or_default();
+        let is_set =
+            |kind: &str, word: &str| set.iter().any(|(path, value)| path == kind && value.trim_matches('"') == word);
+        input.meaning = key_of(&keys, &input.path, &is_set).map(Key::meaning).unwrap_or_default();
     }
 }
 

@@ -18,10 +18,13 @@ use occupant_core::model::Model;
 use occupant_core::results::recorder::Recorder;
 use occupant_core::results::summary::Caveat;
 use occupant_scenario::Diagnostics;
-use occupant_study::engine::Ran;
+use occupant_study::engine::{Engine, Ran};
 use occupant_study::{Bounds, Parameter};
 
-use crate::files::study_folder::{Column, Manifest};
+use crate::base::{Failure, Interrupt, Show, say};
+use crate::files::study_folder::{Checksums, Column, Folder, Journal, Manifest, Shard};
+use crate::sweep::stored::sha256_of;
+use crate::sweep::words::{tell_damaged, warn_unlocked};
 
 /// What the candidates of a search are runs of, and what counts.
 pub trait Objective: Sync {
@@ -88,4 +91,47 @@ pub trait Objective: Sync {
         };
         self.parameters().iter().zip(self.bounds()).map(start).collect()
     }
+}
+
+/// How a search works.
+pub struct Work<'a> {
+    /// Threads and kernel.
+    pub engine: &'a Engine,
+    /// Request to stop.
+    pub interrupt: &'a Interrupt,
+    /// Progress display.
+    pub show: Show,
+    /// Whether earlier results are removed.
+    pub restart: bool,
+}
+
+/// Searches in a folder, from where an earlier search of the same has stopped: `search` finds the answer within about
+/// `budget` candidates, `write` writes the result. `doing` is for messages.
+///
+/// # Errors
+/// A folder of something else, or in which another process is at work; interrupted; an error of the operating system.
+pub fn in_folder<O: Objective, A, T>(
+    (objective, texts): (&O, &[Vec<u8>]),
+    (budget, doing): (u64, &str),
+    folder: &Folder,
+    work: &Work<'_>,
+    search: impl FnOnce(&mut Evaluator<'_, O>) -> Result<A, Failure>,
+    write: impl FnOnce(&A, &[Record], &Checksums) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let (manifest, Work { engine, interrupt, show, restart }) = (objective.manifest(), work);
+    let sha256 = sha256_of(manifest)?;
+    let held = folder.claim(manifest, texts, Shard::WHOLE, *restart)?;
+    warn_unlocked(&held, doing, show.quiet);
+    let sums = Checksums::open(&folder.path, |_| true)?;
+    let progress = Progress::new(budget, *show);
+    let mut evaluator = Evaluator::new(objective, (folder, &sums), &sha256, engine, interrupt, progress)?;
+    tell_damaged(&[held.mended, sums.damaged()].concat());
+    if evaluator.known() > 0 && !show.quiet {
+        say(&format!("resuming: {} runs are finished", evaluator.known()));
+    }
+    let answer = search(&mut evaluator)?;
+    let found = write(&answer, &evaluator.close()?, &sums)?;
+    Journal::list(folder, Shard::WHOLE, &sums)?;
+    sums.close()?;
+    Ok(found)
 }

@@ -24,11 +24,13 @@ mod sections;
 mod spread_plots;
 mod tables;
 pub mod worst;
+mod writing;
 
 pub use matrix::text as matrix_text;
 pub use page::{page, subject};
 pub use quoting::{Answer, all_words, answer, text as paragraphs};
 pub use tables::{Tables, write as write_tables};
+pub use writing::Wanted;
 
 use crate::base::{Failure, Show, Units};
 use crate::files::study_folder::Role;

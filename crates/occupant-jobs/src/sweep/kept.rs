@@ -11,7 +11,7 @@ use occupant_study::engine::Engine;
 
 use super::{Plan, Simulation};
 use crate::base::{Failure, partial_path};
-use crate::files::study_folder::{Checksums, Folder, Journal, Problem, Status};
+use crate::files::study_folder::{Checksums, Folder, Journal, Problem, Role, Status};
 
 /// Parses `none`, `all`, `3, 17` or `worst 5 by head.peak`.
 pub fn parse(text: &str) -> Option<Keep> {
@@ -19,6 +19,45 @@ pub fn parse(text: &str) -> Option<Keep> {
         let numbers: Result<Vec<u64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
         numbers.ok().map(Keep::of)
     })
+}
+
+/// Runs to keep, as given or else those of the study.
+///
+/// # Errors
+/// Unknown words, samples and measures.
+pub fn chosen(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
+    let keep = match given {
+        Some(text) => parse(text).ok_or_else(|| {
+            Failure::with_help(
+                format!("--keep {text}: unknown choice of runs"),
+                "give all, none, numbers of samples such as '3, 17', or 'worst 5 by head.peak'",
+            )
+        })?,
+        None => plan.study.keep.clone(),
+    };
+    let manifest = &plan.manifest;
+    match &keep {
+        Keep::Indices(numbers) => {
+            if let Some(number) = numbers.iter().find(|n| **n >= manifest.samples) {
+                return Err(Failure::plain(format!(
+                    "keep: there is no sample {number}; the study has {}, counted from 0",
+                    manifest.samples
+                )));
+            }
+        }
+        Keep::Worst { measure, .. } => {
+            if manifest.figure(measure).is_none() {
+                let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
+                let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
+                return Err(Failure::with_help(
+                    format!("keep: there is no measure `{measure}`"),
+                    &format!("the measures are {}", names.join(", ")),
+                ));
+            }
+        }
+        Keep::All | Keep::None => {}
+    }
+    Ok(keep)
 }
 
 /// Creates the folder of the kept runs, if any.

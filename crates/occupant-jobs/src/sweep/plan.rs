@@ -48,6 +48,20 @@ impl Plan {
     /// # Errors
     /// All problems of it, as text.
     pub fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
+        Plan::on(&[], name, overrides, texts, program)
+    }
+
+    /// The same on a scenario with changes, which the study may change again.
+    ///
+    /// # Errors
+    /// As [`Plan::open`].
+    pub fn on(
+        before: &[String],
+        name: &Path,
+        overrides: &[String],
+        texts: &Texts,
+        program: String,
+    ) -> Result<Plan, Failure> {
         let text = study_text(name, texts)?;
         let shown = name.display().to_string();
         let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
@@ -56,14 +70,16 @@ impl Plan {
             refused(&shown, &unread(&text, "base", &format!("the scenario {}", scenario.display()), &e))
         })?;
         let scenario_name = scenario.display().to_string();
-        let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
-            .map_err(|problems| refused(&scenario_name, &problems))?;
+        let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name).and_then(|mut draft| {
+            before.iter().try_for_each(|change| draft.set(change))?;
+            Ok(draft)
+        });
+        let draft = draft.map_err(|problems| refused(&scenario_name, &problems))?;
         let beside = |file: &str| texts.get(NamedBy::Study, file);
         let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown, &problems))?;
-        let mut changes = changes_of(&text);
-        changes.extend(overrides.iter().cloned());
+        let changes = [before, &changes_of(&text), overrides].concat();
         let title = text.section.title.clone().unwrap_or_default();
-        let manifest = Manifest::new(program, title, study.len(), overrides.to_vec());
+        let manifest = Manifest::new(program, title, study.len(), [before, overrides].concat());
         let mut plan = Plan {
             warnings: study.warnings.clone(),
             study,

@@ -1,7 +1,7 @@
 //! One sample: scenario, model, run, figures, row.
 
 use occupant_core::model::Model;
-use occupant_core::results::summary::{Summarizer, Summary};
+use occupant_core::results::summary::Summarizer;
 use occupant_study::Keep;
 use occupant_study::engine::{Finished, NotBegun, Source};
 
@@ -50,9 +50,7 @@ impl Source for Simulation<'_> {
     }
 
     fn end(&self, run: Finished<Self::Recorder>) -> Result<Row, Failure> {
-        let mut cells = self.plan.inputs(run.index);
-        cells.resize(self.plan.manifest.columns.len(), Cell::Absent);
-        let mut row = Row::of(&run, cells);
+        let mut row = self.plan.row(&run);
         if let Some(ran) = run.ran {
             let (summarizer, recording) = ran.recorder;
             if let Written::Complete(path) | Written::Partial(path) =
@@ -60,10 +58,7 @@ impl Source for Simulation<'_> {
             {
                 self.sums.add(&path)?;
             }
-            if let Some(summary) = summarizer.summary(None) {
-                self.fill(&mut row, &summary, &ran.model);
-                row.warn_of(&summary.caveats);
-            }
+            self.plan.fill(&mut row, &summarizer, &ran.model);
         }
         Ok(row)
     }
@@ -73,10 +68,19 @@ impl Source for Simulation<'_> {
     }
 }
 
-impl Simulation<'_> {
-    /// Fills in the figures. A failed run has only those of its cost: its peaks are from diverging numbers.
-    fn fill(&self, row: &mut Row, summary: &Summary, model: &Model) {
-        let kept = &self.plan.manifest.columns;
+impl Plan {
+    /// The row of a run, still without figures.
+    pub fn row<R>(&self, run: &Finished<R>) -> Row {
+        let mut cells = self.inputs(run.index);
+        cells.resize(self.manifest.columns.len(), Cell::Absent);
+        Row::of(run, cells)
+    }
+
+    /// Fills in figures and caveats. A failed run has only figures of its cost: its peaks are from diverging numbers.
+    pub fn fill(&self, row: &mut Row, summarizer: &Summarizer, model: &Model) {
+        let Some(summary) = summarizer.summary(None) else { return };
+        row.warn_of(&summary.caveats);
+        let kept = &self.manifest.columns;
         let first = kept.iter().take_while(|c| c.role != Role::Figure).count();
         let figures = summary.figures(model).into_iter().chain(columns(model.setup()));
         for (i, figure) in figures.enumerate() {

@@ -7,6 +7,32 @@
 >>> run.measures["hic15"], run["head.acceleration.resultant"].max()
 """
 
-from ._occupant import LiveRun, OccupantError, Run, Scenario, Study, __version__
+from ._occupant import (
+    LiveRun,
+    OccupantError,
+    Run,
+    Scenario,
+    Study,
+    __version__,
+    compare,
+    film,
+    read,
+    report,
+    study_report,
+    view,
+)
 
-__all__ = ["LiveRun", "OccupantError", "Run", "Scenario", "Study", "__version__"]
+__all__ = [
+    "LiveRun",
+    "OccupantError",
+    "Run",
+    "Scenario",
+    "Study",
+    "__version__",
+    "compare",
+    "film",
+    "read",
+    "report",
+    "study_report",
+    "view",
+]

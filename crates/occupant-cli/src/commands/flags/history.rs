@@ -1,8 +1,8 @@
 //! Flags that exports, plots, comparisons and prints share: times, signals of a test.
 
-use occupant_scenario::kind::{KINDS, TIME};
-
 use occupant_files::measured::MapArgument;
+
+pub(crate) use occupant_jobs::files::history::{interval, seconds};
 
 /// Time window that is shown or compared, s.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -31,30 +31,6 @@ pub(crate) struct TestArgs {
     /// Shift the test by this time
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "0", value_parser = seconds)]
     pub(crate) shift: f64,
-}
-
-/// A time as text, s; a bare number is in seconds.
-///
-/// # Errors
-/// An invalid time.
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    let wrong = |expected: &str| format!("not a time; expected {expected}, such as '80 ms'");
-    match KINDS[TIME].read(text) {
-        Ok(seconds) if seconds.is_finite() => Ok(seconds),
-        Ok(_) => Err(wrong("a finite time")),
-        Err(error) => Err(wrong(&error.expected)),
-    }
-}
-
-/// An interval between samples or prints as text, s.
-///
-/// # Errors
-/// An invalid time, or one that is not above zero.
-pub(crate) fn interval(text: &str) -> Result<f64, String> {
-    match seconds(text)? {
-        seconds if seconds > 0.0 => Ok(seconds),
-        _ => Err("not an interval; expected a time above zero, such as '1 ms'".to_owned()),
-    }
 }
 
 /// A position in an ISO-MME code.

@@ -6,14 +6,10 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use occupant_core::run::batch::Kernel;
-use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
 use crate::base::Failure;
-use occupant_jobs::files::study_folder::manifest::Role;
 use occupant_jobs::files::study_folder::shard::Shard;
-use occupant_jobs::sweep::kept;
-use occupant_jobs::sweep::plan::Plan;
 
 /// The shard to compute, from the flag or the environment variable.
 pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
@@ -29,42 +25,6 @@ pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>)
         Some((shard, variable)) => (shard, Some(variable)),
         None => (Shard::WHOLE, None),
     })
-}
-
-/// Runs to keep, from the command line or else from the study.
-pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
-    let keep = match given {
-        Some(text) => kept::parse(text).ok_or_else(|| {
-            Failure::with_help(
-                format!("--keep {text}: unknown choice of runs"),
-                "give all, none, numbers of samples such as '3, 17', or 'worst 5 by head.peak'",
-            )
-        })?,
-        None => plan.study.keep.clone(),
-    };
-    let manifest = &plan.manifest;
-    match &keep {
-        Keep::Indices(numbers) => {
-            if let Some(number) = numbers.iter().find(|n| **n >= manifest.samples) {
-                return Err(Failure::plain(format!(
-                    "keep: there is no sample {number}; the study has {}, counted from 0",
-                    manifest.samples
-                )));
-            }
-        }
-        Keep::Worst { measure, .. } => {
-            if manifest.figure(measure).is_none() {
-                let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
-                let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
-                return Err(Failure::with_help(
-                    format!("keep: there is no measure `{measure}`"),
-                    &format!("the measures are {}", names.join(", ")),
-                ));
-            }
-        }
-        Keep::All | Keep::None => {}
-    }
-    Ok(keep)
 }
 
 /// Largest number of threads; more only cost memory.

@@ -1,11 +1,9 @@
 //! `occupant study report`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, file_name, is_page, json, print, progress, say};
-use occupant_jobs::study::{Report, Tables, answer, matrix_text, page, paragraphs, subject, worst, write_tables};
-use occupant_jobs::sweep::stored::{MadeBy, open};
-use occupant_pictures::html::is_page_of;
+use crate::base::{Failure, UnitsArg, deliver, json, print, progress};
+use occupant_jobs::study::{Wanted, answer, matrix_text, page, paragraphs};
 
 /// Make an HTML page of a study: which inputs matter, how much, and the worst cases
 ///
@@ -48,66 +46,16 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
         return Err(Failure::plain("give the folder of a sweep"));
     };
     let page_at = args.output.clone().unwrap_or_else(|| first.join("report.html"));
-    let tables = Tables::beside(&page_at);
-    let opened = open(&args.folders, MadeBy::AnyProgram)?;
-    refuse_names(&page_at, &tables, args)?;
-    let units = args.units.or(Some(opened.plan.study.base.units()));
-    let mut report = Report::of(opened, &args.to, &args.limit, units, progress::show(false))?;
-    let runs = worst::beside(&page_at);
-    let force = args.force || (args.output.is_none() && is_page_of(&page_at, &subject(&report)));
-    if !force {
-        refuse_there(&page_at, &tables, &runs)?;
-    } else if !args.force {
-        say(&format!("note: replacing {}, an earlier report of this study (use -o to keep it)", page_at.display()));
-    }
-    for note in &report.notes {
-        say(note);
-    }
-    let existing = Existing::by(force);
-    write_tables(&report, &tables, existing)?;
-    worst::write(&report, &runs, existing)?.iter().for_each(|note| say(note));
-    report.runs = Some(file_name(&runs));
+    let units = |scenario| args.units.or(Some(scenario));
+    let (force, is_unasked) = (args.force, args.output.is_none());
+    let wanted =
+        Wanted { folders: &args.folders, page: &page_at, to: &args.to, limits: &args.limit, force, is_unasked };
+    let report = wanted.write(units, progress::show(false))?;
     if args.json {
         print(&json(&answer(&report))?)?;
     } else {
         print(&matrix_text(&report))?;
         print(&format!("\n{}", paragraphs(&report)))?;
     }
-    deliver(&page_at, force, page(&report).as_bytes())
-}
-
-/// Refuses a page without .html, and names of the sweep's own files.
-fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
-    if !is_page(page) {
-        return Err(Failure::with_help(format!("{} is not an .html file", page.display()), "use the extension .html"));
-    }
-    let names = ["results.parquet", "ensemble.parquet"];
-    let own = |table: &PathBuf| {
-        let mut ours = args.folders.iter().flat_map(|f| names.map(|n| f.join(n)));
-        ours.any(|ours| same(&ours, table))
-    };
-    if let Some(table) = [&tables.numbers, &tables.samples, &tables.distribution].into_iter().find(|t| own(t)) {
-        return Err(Failure::with_help(
-            format!("{} is a table of the sweep", table.display()),
-            "give the page another name",
-        ));
-    }
-    Ok(())
-}
-
-/// Refuses existing files.
-fn refuse_there(page: &Path, tables: &Tables, runs: &Path) -> Result<(), Failure> {
-    let all = [page, &tables.numbers, &tables.samples, &tables.distribution, runs];
-    let there = all.into_iter().find(|path| path.exists());
-    there.map_or(Ok(()), |path| Err(FileProblem::Exists { path: path.to_owned() }.into()))
-}
-
-/// Whether two paths are the same file, existing or not.
-fn same(a: &Path, b: &Path) -> bool {
-    let whole = |p: &Path| {
-        let folder = p.parent().filter(|f| !f.as_os_str().is_empty());
-        let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
-        Some(folder.join(p.file_name()?))
-    };
-    whole(a).is_some() && whole(a) == whole(b)
+    deliver(&page_at, true, page(&report).as_bytes())
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use occupant_core::run::batch::Kernel;
 
 use crate::base::{Done, Failure, UnitsArg, print, quoted};
-use crate::commands::flags::sweep::{engine, keep};
+use crate::commands::flags::sweep::engine;
 use occupant_jobs::files::study_folder::checksums::Checksums;
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::problem::Problem;
@@ -59,7 +59,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let target = Folder::at(target);
     std::fs::create_dir_all(&target.path).map_err(Problem::io("create", &target.path))?;
     target.refuse_other_results(&manifest)?;
-    let keep = keep(args.keep.as_deref(), &plan)?;
+    let keep = kept::chosen(args.keep.as_deref(), &plan)?;
     kept::prepare(&keep, &target)?;
     let sums = Checksums::open(&target.path, |name| !name.starts_with("bands/"))?;
     tell_damaged(&sums.damaged());

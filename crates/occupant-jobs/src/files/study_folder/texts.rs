@@ -76,19 +76,7 @@ impl Texts {
     fn fetch(&self, by: NamedBy, name: &str) -> Result<Vec<u8>, String> {
         match &self.source {
             Source::Files { study } => {
-                let beside = study.parent().unwrap_or(Path::new(""));
-                let path = match by {
-                    NamedBy::CommandLine => study.clone(),
-                    NamedBy::CommandLineTest => PathBuf::from(name),
-                    NamedBy::Study => beside.join(name),
-                    NamedBy::Scenario => self.base.borrow().join(name),
-                    NamedBy::StudyAsBase => {
-                        let path = beside.join(name);
-                        *self.base.borrow_mut() = path.parent().unwrap_or(Path::new("")).to_owned();
-                        path
-                    }
-                };
-                input_file::bytes(&path).map_err(|error| error.to_string())
+                input_file::bytes(&self.place(study, by, name)).map_err(|error| error.to_string())
             }
             Source::Copies { folder, texts } => {
                 let text = texts.iter().find(|t| t.by == by && t.name == name);
@@ -101,6 +89,30 @@ impl Texts {
                 Ok(bytes)
             }
         }
+    }
+
+    /// Path of a file that a study or its scenario refers to.
+    fn place(&self, study: &Path, by: NamedBy, name: &str) -> PathBuf {
+        let beside = study.parent().unwrap_or(Path::new(""));
+        match by {
+            NamedBy::CommandLine => study.to_owned(),
+            NamedBy::CommandLineTest => PathBuf::from(name),
+            NamedBy::Study => beside.join(name),
+            NamedBy::Scenario => self.base.borrow().join(name),
+            NamedBy::StudyAsBase => {
+                let path = beside.join(name);
+                *self.base.borrow_mut() = path.parent().unwrap_or(Path::new("")).to_owned();
+                path
+            }
+        }
+    }
+
+    /// Takes these bytes for a file, which need not exist.
+    pub fn put(&self, by: NamedBy, name: &str, bytes: Vec<u8>) {
+        if let Source::Files { study } = &self.source {
+            self.place(study, by, name);
+        }
+        self.add(by, name, bytes);
     }
 
     /// Stores a text, or a substitute for something that is no single file.

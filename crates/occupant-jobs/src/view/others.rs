@@ -17,17 +17,18 @@ const ALIKE_S: f64 = 1e-9;
 const CHANGED: &str = ", with ";
 
 /// Flags of what else is shown.
-#[derive(Clone, Debug, clap::Args)]
-pub(super) struct Others {
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct Others {
     /// Draw another run translucent in the same picture, at the times of the first; up to three times. Cameras that ride
     /// with the vehicle show each run in axes of its own vehicle, others where it is in space. Needs --3d
-    #[arg(long = "ghost", value_name = "OTHER.mcap")]
-    ghosts: Vec<PathBuf>,
+    #[cfg_attr(feature = "clap", arg(long = "ghost", value_name = "OTHER.mcap"))]
+    pub ghosts: Vec<PathBuf>,
 
     /// Show another run beside the first, at the same times and to the same scale; or pictures of a real test: a folder of
     /// PNG files named by their times in ms, such as 0.png and 120.5.png, or one PNG file. Needs --3d
-    #[arg(long, value_name = "OTHER.mcap|FOLDER|FILE.png")]
-    beside: Option<PathBuf>,
+    #[cfg_attr(feature = "clap", arg(long, value_name = "OTHER.mcap|FOLDER|FILE.png"))]
+    pub beside: Option<PathBuf>,
 }
 
 /// A run with what it shows on each picture, and the times of the pictures, s.

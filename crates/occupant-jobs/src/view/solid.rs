@@ -20,39 +20,48 @@ const SMALL: [usize; 2] = [960, 540];
 const USUAL_DEG: f64 = 40.0;
 
 /// Flags of a picture in three dimensions.
-#[derive(Clone, Debug, clap::Args)]
-pub(super) struct Solid {
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct Solid {
     /// Draw in three dimensions: shaded bodies in the car, on the ground with a grid of metres. PNG, GIF and MP4 only
-    #[arg(long = "3d", conflicts_with_all = ["views", "dimensions"])]
-    solid: bool,
+    #[cfg_attr(feature = "clap", arg(long = "3d", conflicts_with_all = ["views", "dimensions"]))]
+    pub solid: bool,
 
     /// Where it is seen from: `vehicle` (rides with the car), `ground` (sees the whole path), `chase` (behind the
     /// occupant), `driver` (the eye of the first occupant), or a TOML file with `eye` and `target` (x, y, z in m),
     /// `field_of_view` (degrees of the picture's height, 40 if absent) and `frame` ("vehicle" or "space")
-    #[arg(long, value_name = "CAMERA|FILE.toml", default_value = "vehicle", requires = "solid")]
-    camera: String,
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "CAMERA|FILE.toml", default_value = "vehicle", requires = "solid")
+    )]
+    pub camera: String,
 
     /// Width and height in pixels; 1920x1080 if absent, 960x540 for each of several pictures and for a GIF
-    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, requires = "solid")]
-    size: Option<Size>,
+    #[cfg_attr(feature = "clap", arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, requires = "solid"))]
+    pub size: Option<PixelSize>,
 
-    #[command(flatten)]
-    pub(super) others: Others,
+    /// Other runs, and pictures of a test.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub others: Others,
 }
 
 /// Width and height, pixels.
 #[derive(Clone, Copy, Debug)]
-struct Size([usize; 2]);
+pub struct PixelSize([usize; 2]);
 
-fn size(text: &str) -> Result<Size, String> {
+/// Width and height as text, such as `1920x1080`.
+///
+/// # Errors
+/// No two numbers, or one out of range.
+pub fn size(text: &str) -> Result<PixelSize, String> {
     let side = |text: &str| usize::from_str(text.trim()).ok().filter(|side| (16..=8192).contains(side));
-    let sides = text.split_once(['x', '×']).and_then(|(width, height)| Some(Size([side(width)?, side(height)?])));
+    let sides = text.split_once(['x', '×']).and_then(|(width, height)| Some(PixelSize([side(width)?, side(height)?])));
     sides.ok_or_else(|| "expected two numbers from 16 to 8192, such as 1920x1080".to_owned())
 }
 
 impl Solid {
     /// Whether the picture has three dimensions.
-    pub(super) const fn is_asked(&self) -> bool {
+    pub const fn is_asked(&self) -> bool {
         self.solid
     }
 
