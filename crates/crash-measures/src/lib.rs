@@ -32,4 +32,5 @@
 pub mod correlation;
 pub mod injury;
 pub mod measure;
+pub mod rating;
 pub mod signal;

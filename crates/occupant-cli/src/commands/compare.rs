@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use super::flags::history::{TestArgs, WindowArgs};
-use crate::base::{Done, Failure, json, note, print, say};
-use occupant_jobs::compare::{Request, Window, compare as rate};
+use crate::base::{Done, Failure, json, note, one_of, print, say};
+use occupant_jobs::compare::{PROTOCOLS, Protocol, Request, Window, compare as rate};
 use occupant_jobs::files::history::Treatment;
 
 /// Rate how well a run matches a test: ISO/TS 18571, CORA, Sprague–Geers, ANOVA
@@ -36,6 +36,15 @@ pub(crate) struct Args {
     #[command(flatten)]
     treatment: Treatment,
 
+    /// Validate the model by a protocol for virtual testing: required sensors with at least 0.5 by ISO/TS 18571, criteria that
+    /// lie less than 30 % of their limits apart
+    #[arg(long, value_name = "PROTOCOL", value_parser = one_of(&PROTOCOLS))]
+    protocol: Option<Protocol>,
+
+    /// Exit with code 1 if the model is not valid by the protocol
+    #[arg(long, requires = "protocol")]
+    strict: bool,
+
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
@@ -52,11 +61,14 @@ pub(crate) fn compare(args: &Args) -> Result<Done, Failure> {
         window: Window { from_s: args.window.from, to_s: args.window.to, shift_s: args.test.shift },
         treatment: args.treatment,
         filter: args.treatment.words(),
+        protocol: args.protocol,
     })?;
     comparison.notes.iter().for_each(note);
     print(&if args.json { json(&comparison)? } else { comparison.text() })?;
     for reason in &comparison.worthless {
         say(&format!("error: the ratings mean nothing: {reason}"));
     }
-    Ok(if comparison.worthless.is_empty() { Done::Well } else { Done::Unwell })
+    let is_valid = comparison.protocol.as_ref().is_none_or(|protocol| protocol.is_valid() == Some(true));
+    let is_well = comparison.worthless.is_empty() && (is_valid || !args.strict);
+    Ok(if is_well { Done::Well } else { Done::Unwell })
 }

@@ -1,5 +1,6 @@
 //! `occupant measures`.
 
+mod rating;
 mod test;
 
 use std::collections::BTreeMap;
@@ -7,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
+use crash_measures::rating::Rating;
 use crash_measures::signal::CfcFamily;
 use occupant_core::results::summary::{Caveat, Person, Summary};
 use placed_text::shown;
@@ -30,13 +32,30 @@ const FILTERED_S: f64 = 1e-4;
 /// a column each. Simulated signals have no noise and are not filtered unless --filter asks for it. Exit code 1 if --strict
 /// is given and a limit is exceeded.
 ///
+/// With --rating the measures are rated as a test is: points, stars, grades or a verdict, region by region. What a body does
+/// not measure stays blank, with the reason.
+///
 /// A test is a CSV table, an ISO-MME test (its folder or .mme file) or an NHTSA test. Its signals are identified by --map, by
 /// channel name (see `occupant channels`) or by ISO-MME code. Tests have noise: use --filter j211.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`, or tests: CSV, ISO-MME folder or .mme file
-    #[arg(value_name = "RUN.mcap", required = true)]
+    #[arg(value_name = "RUN.mcap", required_unless_present = "values")]
     runs: Vec<PathBuf>,
+
+    /// Rate by the tables and rules of a rating
+    #[arg(long, value_name = "RATING", value_parser = rating::names())]
+    rating: Option<&'static Rating>,
+
+    /// Rate as these occupants of the rating: a part of case, seat and dummy, such as 'driver'. If absent, those with the
+    /// dummy of the measures, else the first
+    #[arg(long, value_name = "OCCUPANT", requires = "rating")]
+    place: Option<String>,
+
+    /// Values of the rating's criteria from a table (CSV, XLSX) with the columns Loadcase, Seat position, Dummy, Body region,
+    /// Criteria, Value. They count before measures; without a run they are rated alone
+    #[arg(long, value_name = "FILE", requires = "rating")]
+    values: Option<PathBuf>,
 
     /// Filter each channel by its class (CFC: head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
     #[arg(long, value_name = "CLASS", default_value = "none", value_parser = one_of(&FILTERS))]
@@ -136,6 +155,7 @@ struct Judged {
     file: String,
     results: Results,
     summary: Summary,
+    impact: Impact,
     interval_ms: f64,
     notes: Vec<String>,
 }
@@ -166,7 +186,7 @@ impl Judged {
             impact.judge(&mut summary, &results.model);
             notes.extend(impact.reasons(units));
         }
-        Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
+        Ok(Judged { file: file.display().to_string(), results, summary, impact, interval_ms, notes })
     }
 
     /// Requested units, else those of its scenario.
@@ -194,12 +214,18 @@ impl Judged {
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let filtered = Options { filtering: args.filtering(), ..Options::default() };
     let options = args.dummy.map_or(filtered, |dummy| filtered.with(dummy));
+    if args.runs.is_empty() {
+        return rating::values_alone(args);
+    }
     if args.runs.iter().any(|file| test::is_test(file)) {
         return test::measures(args, &options);
     }
     test::refuse_flags(args)?;
     let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options, (!args.json).then_some(args.units)));
     let all = all.collect::<Result<Vec<_>, _>>()?;
+    if let Some(rating) = args.rating {
+        return rating::runs(args, rating, &all);
+    }
     if args.json {
         let answers: Vec<_> = all.iter().map(Judged::answer).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
