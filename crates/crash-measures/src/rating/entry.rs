@@ -72,7 +72,7 @@ impl Entry {
         let remark = || measure.remark.clone().unwrap_or_else(|| format!("no {wanted}"));
         let entry = measure.value.map_or_else(|| Entry::blank(remark()), |v| Entry::of(v / instrument.unit.factor));
         let remark = entry.remark.or(instrument.remark.map(str::to_owned));
-        Entry { remark, doubtful: spoils(measure), ..entry }
+        Entry { remark, doubtful: entry.value.is_some() && spoils(measure), ..entry }
     }
 }
 

@@ -191,9 +191,11 @@ fn total(method: Method, test: &Test, occupants: &[RatedOccupant]) -> Option<Out
     };
     let rounded = |value: f64| if method == Method::Bands { half_up(value, 3) } else { value };
     let (now, best) = (rounded(of_all(&|outcome| outcome.now)?), rounded(of_all(&|outcome| outcome.best)?));
+    let of_each = || occupants.iter().map(|rated| rated.outcome.of);
     let most = match test.total {
-        Total::Sum(factor) => Some(factor * occupants.iter().map(|rated| rated.outcome.of).sum::<Option<f64>>()?),
-        _ => Some(occupants.first()?.outcome.of? / 2.0),
+        Total::Sum(factor) => of_each().sum::<Option<f64>>().map(|sum| factor * sum),
+        Total::WorstRegions(factor) => of_each().next().flatten().map(|each| factor * each),
+        Total::Apart => None,
     };
     Some(Outcome { now, best, of: most.map(|most| half_up(most, 3)) })
 }
@@ -391,7 +393,8 @@ fn one(value: f64, of: Option<f64>, method: Method) -> String {
         Method::Limits(_) => if value > 0.0 { "met" } else { "NOT MET" }.to_owned(),
         Method::Stars => {
             let stars = us_ncap_frontal_stars(value);
-            stars.map_or("–".to_owned(), |stars| format!("{stars} stars (joint risk {:.1} %)", 100.0 * value))
+            let words = |stars: u8| if stars == 1 { "1 star".to_owned() } else { format!("{stars} stars") };
+            format!("{} (joint risk {:.1} %)", stars.map_or("–".to_owned(), words), 100.0 * value)
         }
         Method::Demerits(bounds) => {
             let grade = ["good", "acceptable", "marginal", "poor"][bounds.iter().filter(|most| value > **most).count()];

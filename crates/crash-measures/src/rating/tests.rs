@@ -218,6 +218,72 @@ fn hostile_values_are_blanks_or_count_as_they_are() {
     }
 }
 
+/// The sum of demerits of both occupants grades the test.
+#[test]
+fn a_test_of_the_iihs_has_the_demerits_of_both() {
+    let rating = Rating::named("iihs-moderate-overlap").unwrap();
+    let fill = |_: &Occupant, _: &Region, own: &Criterion| match own.name {
+        "Dchest compression" => Entry::of(55.0),
+        "Chest index" => Entry::of(41.0),
+        _ => Entry::of(0.0),
+    };
+    let outcome = rating.rate(|_| true, fill).tests[0].outcome.unwrap();
+    assert_eq!(outcome.words(rating.method), "marginal (12 demerits)");
+}
+
+/// Whatever is blank: at its best it is never worse, and filling a blank never leaves the interval.
+#[test]
+fn a_filled_blank_stays_within_its_interval() {
+    let mut state = 1_u64;
+    let mut chance = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / f64::from(1 << 24)
+    };
+    for rating in RATINGS.iter().flat_map(|rating| std::iter::repeat_n(rating, 40)) {
+        let mut values = std::collections::HashMap::new();
+        let mut value = |place: String, own: &Criterion| -> (f64, bool) {
+            let high = match own.scale {
+                Scale::Bands { low, .. } | Scale::Sliding { low, .. } | Scale::Most(low) => low.max(1.0),
+                Scale::Grades(bounds) => bounds[0],
+                Scale::Gate { below, .. } => below,
+                _ => own.cap.unwrap_or(1.0),
+            };
+            *values.entry(place + own.name).or_insert_with(|| (1.3 * high * chance(), chance() < 0.3))
+        };
+        let place = |own: &Occupant, region: &Region| own.place() + region.name;
+        let is_plain = |own: &Criterion| {
+            !matches!(own.scale, Scale::Deduction(_) | Scale::Percent | Scale::Cap | Scale::CapUnless { .. })
+        };
+        let cell = std::cell::RefCell::new(&mut value);
+        let fill = |occupant: &Occupant, region: &Region, own: &Criterion, holes: bool| {
+            if matches!(own.scale, Scale::Others) {
+                return Entry::blank("of the others");
+            }
+            let (value, is_blank) = (*cell.borrow_mut())(place(occupant, region), own);
+            match is_plain(own) {
+                true if is_blank && holes => Entry::blank("blank"),
+                true => Entry::of(value),
+                false => Entry::of(0.0),
+            }
+        };
+        let whole = rating.rate(|_| true, |occupant, region, own| fill(occupant, region, own, false));
+        let holed = rating.rate(|_| true, |occupant, region, own| fill(occupant, region, own, true));
+        let all = |rated: &Rated| rated.tests.iter().flat_map(|test| test.occupants.clone()).collect::<Vec<_>>();
+        for (whole, holed) in all(&whole).iter().zip(all(&holed)) {
+            let [now, best, filled] = [holed.outcome.now, holed.outcome.best, whole.outcome.now];
+            let (low, high) = (now.min(best), now.max(best));
+            // a blank may hide a cap, which takes what is known
+            let low = if whole.capped { 0.0 } else { low };
+            assert!(
+                (low - 1e-9..=high + 1e-9).contains(&filled),
+                "{} {}: {now} {best} {filled}",
+                rating.name,
+                whole.occupant.place()
+            );
+        }
+    }
+}
+
 /// Every table is whole: names once, instruments for all, a document with a year, points that make the sums of the template.
 #[test]
 fn tables_are_whole() {

@@ -1,5 +1,5 @@
 //! Values of a rating from a table, in the layout of Euro NCAP's template: load case, seat, dummy, region, criterion, value.
-//! An empty cell of the first four means the cell above.
+//! An empty cell of the first four means the cell above; without a load case, a seat and a dummy it is of all occupants.
 
 use std::path::Path;
 
@@ -27,8 +27,8 @@ pub struct Values {
 /// A value with its place.
 #[derive(Clone, Debug)]
 struct Row {
-    occupant: &'static str,
-    place: String,
+    /// Name of the occupant; none for all.
+    place: Option<String>,
     region: &'static str,
     criterion: &'static str,
     value: Option<f64>,
@@ -70,7 +70,7 @@ impl Values {
 
 impl Row {
     fn is_of(&self, occupant: &Occupant) -> bool {
-        self.occupant == occupant.label && self.place == occupant.place()
+        self.place.as_ref().is_none_or(|place| *place == occupant.place())
     }
 }
 
@@ -110,11 +110,13 @@ impl<'a> Reader<'a> {
         criterion: &Cell<'_>,
         value: Option<&Cell<'_>>,
     ) {
-        let Some(occupant) = self.occupant(place, criterion.span) else { return };
-        let regions = || occupant.regions.iter();
+        let Some(occupants) = self.occupants(place, criterion.span) else { return };
+        let regions = || occupants.iter().flat_map(|own| own.regions.iter().map(|region| (*own, region)));
         let wanted = place[PLACES - 1].map_or("", |cell| cell.text);
-        let Some(region) = regions().find(|region| same(region.name, wanted)) else {
-            let known: Vec<&str> = regions().map(|region| region.name).collect();
+        let Some((occupant, region)) = regions().find(|(_, region)| same(region.name, wanted)) else {
+            let mut known: Vec<&str> = regions().map(|(_, region)| region.name).collect();
+            known.sort_unstable();
+            known.dedup();
             return self.unknown(place[PLACES - 1].map_or(criterion.span, |cell| cell.span), "region", wanted, &known);
         };
         let criteria = || region.criteria.iter().chain([&INSPECTION]);
@@ -126,8 +128,8 @@ impl<'a> Reader<'a> {
             return self.wrong(criterion.span, &format!("`{}` a second time", own.name), "each criterion once");
         }
         let Some(value) = self.value(separator, value) else { return };
-        let (occupant, place) = (occupant.label, occupant.place());
-        self.values.rows.push(Row { occupant, place, region: region.name, criterion: own.name, value });
+        let place = (occupants.len() == 1).then(|| occupant.place());
+        self.values.rows.push(Row { place, region: region.name, criterion: own.name, value });
     }
 
     /// A number, none for a word that means no value; nothing after a complaint.
@@ -144,22 +146,22 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn occupant(&mut self, place: &[Option<Cell<'_>>], span: Span) -> Option<&'static Occupant> {
+    /// The occupant of a line; all of them if it names none.
+    fn occupants(&mut self, place: &[Option<Cell<'_>>], span: Span) -> Option<Vec<&'static Occupant>> {
+        let named = || place[..PLACES - 1].iter().flatten();
         let fits = |known: &str, i: usize| place[i].is_none_or(|cell| same(known, cell.text));
         let is_it = |own: &&Occupant| fits(own.case, 0) && fits(own.seat, 1) && fits(own.label, 2);
-        let mut found = self.rating.occupants().filter(is_it);
-        match (found.next(), found.next()) {
-            (Some(only), None) => Some(only),
-            (first, _) => {
-                let words: Vec<&str> = place[..3].iter().flatten().map(|cell| cell.text).collect();
-                let known: Vec<String> = self.rating.occupants().map(Occupant::place).collect();
-                let what = if first.is_some() { "several occupants are" } else { "no occupant is" };
-                let span = place[..3].iter().flatten().next_back().map_or(span, |cell| cell.span);
-                let found = format!("{what} `{}`", shortened(&words.join(", "), CELL));
-                self.wrong(span, &found, &format!("one of {}", known.join("; ")));
-                None
-            }
+        let found: Vec<_> = self.rating.occupants().filter(is_it).collect();
+        if found.len() == 1 || named().next().is_none() {
+            return Some(found);
         }
+        let words: Vec<&str> = named().map(|cell| cell.text).collect();
+        let known: Vec<String> = self.rating.occupants().map(Occupant::place).collect();
+        let what = if found.is_empty() { "no occupant is" } else { "several occupants are" };
+        let span = named().next_back().map_or(span, |cell| cell.span);
+        let said = format!("{what} `{}`", shortened(&words.join(", "), CELL));
+        self.wrong(span, &said, &format!("one of {}", known.join("; ")));
+        None
     }
 
     fn unknown(&mut self, span: Span, what: &str, word: &str, known: &[&str]) {
