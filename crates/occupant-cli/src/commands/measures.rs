@@ -48,14 +48,22 @@ pub(crate) struct Args {
     rating: Option<&'static Rating>,
 
     /// Rate as these occupants of the rating: a part of case, seat and dummy, such as 'driver'. If absent, those with the
-    /// dummy of the measures, else the first
+    /// dummy of the measures, else the first. Given once for each body, in the order of the runs, all are rated together
     #[arg(long, value_name = "OCCUPANT", requires = "rating")]
-    place: Option<String>,
+    place: Vec<String>,
 
     /// Values of the rating's criteria from a table (CSV, XLSX) with the columns Loadcase, Seat position, Dummy, Body region,
     /// Criteria, Value. They count before measures; without a run they are rated alone
     #[arg(long, value_name = "FILE", requires = "rating")]
     values: Option<PathBuf>,
+
+    /// Write criteria, values and blanks in the layout of --values, which is that of Euro NCAP's template: .csv, .xlsx, .parquet
+    #[arg(short, long, value_name = "FILE", requires = "rating")]
+    output: Option<PathBuf>,
+
+    /// Replace the file of -o
+    #[arg(short, long, requires = "output")]
+    force: bool,
 
     /// Filter each channel by its class (CFC: head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
     #[arg(long, value_name = "CLASS", default_value = "none", value_parser = one_of(&FILTERS))]

@@ -150,6 +150,44 @@ fn a_run_is_rated_as_far_as_it_measures() {
     assert!(text.contains("Sled-Mid, Driver, HIII-50:") && text.contains("blank, "), "{text}");
 }
 
+/// Each body at its own place: one result with the sum of the test, written in the layout of the template and read again.
+#[test]
+fn bodies_are_rated_together_and_fill_the_template() {
+    let folder = folder_with_case();
+    let here = folder.path();
+    let run = answer(here, &["run", "case.toml", "-o", "run.mcap", "--set", "time.end=0.12", "-q"]);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    // a step that is too long marks every figure
+    let coarse =
+        ["run", "case.toml", "-o", "coarse.mcap", "--set", "time.end=0.12", "--set", "integrator.step=1 ms", "-q"];
+    assert_eq!(code(&answer(here, &coarse)), 0);
+    let rating = ["--rating", "euro-ncap-full-width", "-o", "filled.csv"];
+    let both = ["run.mcap", "coarse.mcap", "--place", "driver", "--place", "rear passenger"];
+    let told = rate(here, &[&both[..], &rating].concat());
+    assert_eq!(told["results"].as_array().unwrap().len(), 1);
+    let test = &told["results"][0]["tests"][0];
+    let seats = test["occupants"].as_array().unwrap();
+    assert_eq!([&seats[0]["doubtful"], &seats[1]["doubtful"]], [false, true]);
+    let sum: f64 = seats.iter().map(|seat| seat["result"]["now"].as_f64().unwrap()).sum();
+    assert!((test["result"]["now"].as_f64().unwrap() - 0.25 * sum).abs() < 1e-12 && test["result"]["of"] == 8.0);
+    let text = out(&answer(here, &[&["measures"], &both[..], &rating[..2]].concat()));
+    assert!(text.contains("Rear Passenger, HIII-05: ! ") && text.contains("full width, 50 km/h: "), "{text}");
+    // the file has all criteria, and its values are rated alike
+    let again = rate(here, &["--rating", "euro-ncap-full-width", "--values", "filled.csv"]);
+    assert_eq!(again["results"][0]["tests"][0]["result"], test["result"]);
+    let words = [&["measures"], &both[..], &rating].concat();
+    assert!(code(&answer(here, &words)) != 0, "the file is there already");
+    for (places, found) in [
+        (&["driver", "driver"][..], "two bodies are Driver, HIII-05"),
+        (&["driver", "hiii-05"], "2 occupants have this name"),
+        (&["driver", "driver", "driver"], "2 bodies, but --place 3 times"),
+    ] {
+        let places: Vec<&str> = places.iter().flat_map(|place| ["--place", place]).collect();
+        let output = answer(here, &[&["measures", "run.mcap", "run.mcap"], &rating[..2], &places].concat());
+        assert!(code(&output) == 2 && err(&output).contains(found), "{found}: {}", err(&output));
+    }
+}
+
 /// A test in a table: HIC15 361 of a half sine of 60 g, 40 mm, both femurs.
 #[test]
 fn a_test_is_rated_as_a_run_is() {

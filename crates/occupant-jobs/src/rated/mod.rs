@@ -1,6 +1,7 @@
 //! Ratings of runs and tests: which occupant of a rating a body is, what it is rated by, words on what it is not.
 
 mod answer;
+mod filled;
 mod text;
 mod values;
 
@@ -12,6 +13,7 @@ use crate::base::Failure;
 use crate::judged::Direction;
 
 pub use answer::{Answer, Result};
+pub use filled::write;
 pub use text::text;
 pub use values::Values;
 
@@ -63,6 +65,26 @@ pub fn rate(rating: &'static Rating, chosen: &[&'static Occupant], body: &Body<'
         let given = values.and_then(|values| values.entry(occupant, region, criterion));
         given.unwrap_or_else(|| Entry::from_measures(region.name, criterion.name, body.measures, body.spoils))
     })
+}
+
+/// Rates several bodies together, each as its own occupant.
+pub fn rate_together(
+    rating: &'static Rating,
+    chosen: &[&'static Occupant],
+    bodies: &[Body<'_>],
+    values: Option<&Values>,
+) -> Rated {
+    let body_of = |own: &Occupant| chosen.iter().position(|other| other.place() == own.place());
+    rating.rate(
+        |own| body_of(own).is_some(),
+        |occupant, region, criterion| {
+            let given = values.and_then(|values| values.entry(occupant, region, criterion));
+            let body = body_of(occupant).and_then(|i| bodies.get(i));
+            let measured =
+                body.map(|body| Entry::from_measures(region.name, criterion.name, body.measures, body.spoils));
+            given.or(measured).unwrap_or_default()
+        },
+    )
 }
 
 /// Rates values alone: all occupants that have any.

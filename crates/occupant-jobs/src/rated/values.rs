@@ -12,7 +12,7 @@ use crate::base::Failure;
 use occupant_files::measured;
 
 /// Columns, by their names in the template.
-const COLUMNS: [&str; 6] = ["Loadcase", "Seat position", "Dummy", "Body region", "Criteria", "Value"];
+pub(super) const COLUMNS: [&str; 6] = ["Loadcase", "Seat position", "Dummy", "Body region", "Criteria", "Value"];
 /// Number of columns that repeat downwards.
 const PLACES: usize = 4;
 /// Largest number of problems shown.
