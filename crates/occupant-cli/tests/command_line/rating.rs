@@ -155,19 +155,20 @@ fn a_run_is_rated_as_far_as_it_measures() {
 fn bodies_are_rated_together_and_fill_the_template() {
     let folder = folder_with_case();
     let here = folder.path();
-    let run = answer(here, &["run", "case.toml", "-o", "run.mcap", "--set", "time.end=0.12", "-q"]);
+    let run = answer(here, &["run", "case.toml", "-o", "run.mcap", "-q"]);
     assert_eq!(code(&run), 0, "{}", err(&run));
     // a step that is too long marks every figure
     let coarse =
         ["run", "case.toml", "-o", "coarse.mcap", "--set", "time.end=0.12", "--set", "integrator.step=1 ms", "-q"];
-    assert_eq!(code(&answer(here, &coarse)), 0);
+    assert!(code(&answer(here, &coarse)) < 2 && here.join("coarse.mcap").exists());
     let rating = ["--rating", "euro-ncap-full-width", "-o", "filled.csv"];
     let both = ["run.mcap", "coarse.mcap", "--place", "driver", "--place", "rear passenger"];
     let told = rate(here, &[&both[..], &rating].concat());
     assert_eq!(told["results"].as_array().unwrap().len(), 1);
     let test = &told["results"][0]["tests"][0];
     let seats = test["occupants"].as_array().unwrap();
-    assert_eq!([&seats[0]["doubtful"], &seats[1]["doubtful"]], [false, true]);
+    let heads = [0, 1].map(|seat: usize| seats[seat]["regions"][0]["doubtful"].as_bool().unwrap());
+    assert_eq!((heads, &seats[1]["doubtful"]), ([false, true], &Value::from(true)));
     let sum: f64 = seats.iter().map(|seat| seat["result"]["now"].as_f64().unwrap()).sum();
     assert!((test["result"]["now"].as_f64().unwrap() - 0.25 * sum).abs() < 1e-12 && test["result"]["of"] == 8.0);
     let text = out(&answer(here, &[&["measures"], &both[..], &rating[..2]].concat()));

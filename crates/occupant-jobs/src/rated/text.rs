@@ -106,7 +106,7 @@ pub(super) fn scale(own: &RatedCriterion) -> String {
         }
         Scale::Percent => "taken off".to_owned(),
         Scale::Cap | Scale::CapUnless { .. } => format!("cap {}", own.criterion.cap.map(number).unwrap_or_default()),
-        Scale::Gate { below, .. } => format!("contact from {}", number(below)),
+        Scale::Gate { below, .. } => format!("contact ≥ {}", number(below)),
         Scale::Others => "none or all".to_owned(),
     }
 }
