@@ -1,8 +1,10 @@
-//! Ratings of crash tests: points, stars, grades or a verdict from measures, with the tables and rules of those who rate.
+//! Ratings of crash tests: points, stars, grades or a verdict from measures, with the tables and rules of those who
+//! rate.
 //!
-//! A [`Rating`] is data: tests, their occupants, regions of the body, criteria with scales. [`Rating::rate`] computes any
-//! of them from [`Entry`]s, one per criterion. A criterion without a value is blank. What that leaves open is said: every
-//! result is an interval, from blanks that count as the rating body counts them (no points) to blanks at their best.
+//! A [`Rating`] is data: tests, their occupants, regions of the body, criteria with scales. [`Rating::rate`] computes
+//! any of them from [`Entry`]s, one per criterion. A criterion without a value is blank. What that leaves open is said:
+//! every result is an interval, from blanks that count as the rating body counts them (no points) to blanks at their
+//! best.
 //!
 //! Every table names the document it rests on, its version and year, and where it was read. Sums over what an inspector
 //! sees (modifiers, structure, excursion) hold without them unless they are given.

@@ -1,7 +1,7 @@
 //! The result of a rating.
 //!
-//! It is computed twice: with blanks as the rating body counts them, and with blanks at their best. What the two differ by
-//! is what is open.
+//! It is computed twice: with blanks as the rating body counts them, and with blanks at their best. What the two differ
+//! by is what is open.
 
 use std::collections::HashMap;
 
@@ -23,8 +23,8 @@ enum Blank {
     Best,
 }
 
-/// A result, with blanks that count nothing and with blanks at their best: points, demerits, joint risk, or 1 for met and 0
-/// for not met.
+/// A result, with blanks that count nothing and with blanks at their best: points, demerits, joint risk, or 1 for met
+/// and 0 for not met.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// Blanks count nothing.
@@ -77,8 +77,8 @@ pub struct RatedRegion {
     pub region: &'static Region,
     /// Criteria.
     pub criteria: Vec<RatedCriterion>,
-    /// Percent of the points before deductions, or worth of the worst criterion, with blanks that count nothing; none if
-    /// nothing is asked.
+    /// Percent of the points before deductions, or worth of the worst criterion, with blanks that count nothing; none
+    /// if nothing is asked.
     pub worth: Option<f64>,
     /// Result.
     pub outcome: Outcome,
@@ -119,8 +119,8 @@ struct Person<'a> {
 }
 
 impl Rating {
-    /// Rates occupants. `fill` gives the entry of each criterion of an occupant; occupants for which `is_there` is false
-    /// are left out.
+    /// Rates occupants. `fill` gives the entry of each criterion of an occupant; occupants for which `is_there` is
+    /// false are left out.
     #[must_use]
     pub fn rate(
         &'static self,

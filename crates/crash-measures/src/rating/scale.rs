@@ -152,8 +152,9 @@ impl Criterion {
 }
 
 impl Scale {
-    /// What a value, whose unit is a `factor` of the SI unit, is worth: percent of the points, 100 or 0 for met or not met, 3 to 0 for good to poor, the percentage
-    /// of those without this injury. None if nothing is known for the dummy.
+    /// What a value, whose unit is a `factor` of the SI unit, is worth: percent of the points, 100 or 0 for met or not
+    /// met, 3 to 0 for good to poor, the percentage of those without this injury. None if nothing is known for the
+    /// dummy.
     pub(super) fn worth(&self, value: f64, factor: f64, method: Method, dummy: Option<Dummy>) -> Option<f64> {
         match *self {
             Bands { high, low } => Some(band(value, high, low)),

@@ -22,7 +22,8 @@ fn points(rated: &RatedOccupant) -> Vec<f64> {
 
 const DRIVER: &str = "FWDB-35, Driver, HIII-05";
 
-/// HIC15 600 (40 %), 34 mm (0 %, capped from there), femur 4 kN (40 %: bands 2.6, 3.8, 5, 6.2), legs below their limits.
+/// HIC15 600 (40 %), 34 mm (0 %, capped from there), femur 4 kN (40 %: bands 2.6, 3.8, 5, 6.2), legs below their
+/// limits.
 #[test]
 fn the_worst_criterion_decides_a_region_and_a_cap_takes_all() {
     let values = [("Ares", 90.0), ("HIC15", 600.0), ("Ares-3ms", 70.0), ("Ffemur, left", 4.0)];
@@ -284,7 +285,8 @@ fn a_filled_blank_stays_within_its_interval() {
     }
 }
 
-/// Every table is whole: names once, instruments for all, a document with a year, points that make the sums of the template.
+/// Every table is whole: names once, instruments for all, a document with a year, points that make the sums of the
+/// template.
 #[test]
 fn tables_are_whole() {
     let measures: BTreeSet<&str> =

@@ -9,10 +9,10 @@ use occupant_jobs::files::history::Treatment;
 
 /// Rate how well a run matches a test: ISO/TS 18571, CORA, Sprague–Geers, ANOVA
 ///
-/// The test is a CSV table, an ISO-MME test (its folder or .mme file) or another run. A signal is matched to a channel by
-/// --map, by its name, or by its ISO-MME code; SAE J211 signs are converted. Both sides are filtered alike, cut to their
-/// common time and resampled linearly to 10 kHz, as ISO/TS 18571 requires. Exit code 1 if a run failed or its energy
-/// balance is off by more than 10 %: its ratings then mean nothing.
+/// The test is a CSV table, an ISO-MME test (its folder or .mme file) or another run. A signal is matched to a channel
+/// by --map, by its name, or by its ISO-MME code; SAE J211 signs are converted. Both sides are filtered alike, cut to
+/// their common time and resampled linearly to 10 kHz, as ISO/TS 18571 requires. Exit code 1 if a run failed or its
+/// energy balance is off by more than 10 %: its ratings then mean nothing.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`, or computed histories as CSV or ISO-MME
@@ -36,8 +36,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     treatment: Treatment,
 
-    /// Validate the model by a protocol for virtual testing: required sensors with at least 0.5 by ISO/TS 18571, criteria that
-    /// lie less than 30 % of their limits apart
+    /// Validate the model by a protocol for virtual testing: required sensors with at least 0.5 by ISO/TS 18571,
+    /// criteria that lie less than 30 % of their limits apart
     #[arg(long, value_name = "PROTOCOL", value_parser = one_of(&PROTOCOLS))]
     protocol: Option<Protocol>,
 

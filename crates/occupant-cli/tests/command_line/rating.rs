@@ -150,7 +150,8 @@ fn a_run_is_rated_as_far_as_it_measures() {
     assert!(text.contains("Sled-Mid, Driver, HIII-50:") && text.contains("blank, "), "{text}");
 }
 
-/// Each body at its own place: one result with the sum of the test, written in the layout of the template and read again.
+/// Each body at its own place: one result with the sum of the test, written in the layout of the template and read
+/// again.
 #[test]
 fn bodies_are_rated_together_and_fill_the_template() {
     let folder = folder_with_case();
@@ -212,6 +213,7 @@ fn a_test_is_rated_as_a_run_is() {
 
 /// The calculator of Euro NCAP, where it is installed; `official_ratings.py OCCUPANT 1000` is the whole proof.
 #[test]
+#[allow(clippy::print_stderr, reason = "says that it is skipped")]
 fn points_equal_those_of_the_official_calculator() {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/official_ratings.py");
     let program = assert_cmd::cargo::cargo_bin!("occupant");

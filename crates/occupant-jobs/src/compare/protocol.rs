@@ -1,8 +1,8 @@
-//! Validation of a model by the rules of a protocol for virtual testing: required sensors by ISO/TS 18571, criteria by their
-//! amplitude.
+//! Validation of a model by the rules of a protocol for virtual testing: required sensors by ISO/TS 18571, criteria by
+//! their amplitude.
 //!
-//! A sensor with three axes has the mean of their scores, weighed by the largest magnitudes of the computed axes. A criterion
-//! is divided by its limit; if the test reaches half of it, both may differ by less than 0.3.
+//! A sensor with three axes has the mean of their scores, weighed by the largest magnitudes of the computed axes. A
+//! criterion is divided by its limit; if the test reaches half of it, both may differ by less than 0.3.
 
 use std::path::Path;
 
@@ -165,12 +165,9 @@ pub(super) fn validate(protocol: Protocol, request: &Request<'_>, pairs: &[Rated
     };
     let criteria: Vec<_> =
         wanted(protocol, dummy).into_iter().map(|wanted| Amplitude::of(wanted, &measured, &computed)).collect();
-    let all = sensors.iter().map(|own| own.passed).chain(criteria.iter().map(|own| own.passed));
-    let valid = all.fold(Some(true), |valid, own| match (valid, own) {
-        (Some(false), _) | (_, Some(false)) => Some(false),
-        (Some(true), Some(true)) => Some(true),
-        _ => None,
-    });
+    let passed = sensors.iter().map(|own| own.passed).chain(criteria.iter().map(|own| own.passed)).collect::<Vec<_>>();
+    let is_whole = !criteria.is_empty() && passed.iter().all(Option::is_some);
+    let valid = if passed.contains(&Some(false)) { Some(false) } else { is_whole.then_some(true) };
     Ok(Validation { source: protocol.source(), valid, dummy, sensors, criteria })
 }
 

@@ -31,8 +31,8 @@ pub struct Body<'a> {
     pub spoils: &'a dyn Fn(&Measure) -> bool,
 }
 
-/// The occupants of a rating that a body may be: those of `place` (a part of their names), else those with its dummy, else
-/// the first.
+/// The occupants of a rating that a body may be: those of `place` (a part of their names), else those with its dummy,
+/// else the first.
 ///
 /// # Errors
 /// No occupant of that name.

@@ -1,5 +1,6 @@
-//! Values of a rating from a table, in the layout of Euro NCAP's template: load case, seat, dummy, region, criterion, value.
-//! An empty cell of the first four means the cell above; without a load case, a seat and a dummy it is of all occupants.
+//! Values of a rating from a table, in the layout of Euro NCAP's template: load case, seat, dummy, region, criterion,
+//! value. An empty cell of the first four means the cell above; without a load case, a seat and a dummy it is of all
+//! occupants.
 
 use std::path::Path;
 
@@ -38,8 +39,8 @@ impl Values {
     /// Values of a rating from a file.
     ///
     /// # Errors
-    /// A file that cannot be read; columns, places, criteria and numbers that are not those of the rating; a criterion that
-    /// stands twice.
+    /// A file that cannot be read; columns, places, criteria and numbers that are not those of the rating; a criterion
+    /// that stands twice.
     pub fn read(path: &Path, rating: &'static Rating) -> Result<Self, Failure> {
         let mut sources = Sources::new();
         let id = sources.add_named(path.display().to_string(), measured::text(path)?);

@@ -1,4 +1,5 @@
-//! Euro NCAP of 2023: points on sliding scales, as read in the open program pyisomme 1.1.0 (MIT), which cites the protocol.
+//! Euro NCAP of 2023: points on sliding scales, as read in the open program pyisomme 1.1.0 (MIT), which cites the
+//! protocol.
 
 use super::super::scale::{Criterion, deduction, gate, sliding};
 use super::super::{Method, Occupant, Rating, Test, Total, region};

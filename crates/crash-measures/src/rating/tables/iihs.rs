@@ -1,5 +1,5 @@
-//! IIHS: good, acceptable, marginal or poor, and demerits, as read in the open program pyisomme 1.1.0 (MIT), which cites the
-//! guidelines.
+//! IIHS: good, acceptable, marginal or poor, and demerits, as read in the open program pyisomme 1.1.0 (MIT), which
+//! cites the guidelines.
 
 use super::super::scale::{Criterion, grades};
 use super::super::{Method, Occupant, Rating, Region, Test, Total, graded};
