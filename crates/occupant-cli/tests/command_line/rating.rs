@@ -177,6 +177,16 @@ fn bodies_are_rated_together_and_fill_the_template() {
     // the file has all criteria, and its values are rated alike
     let again = rate(here, &["--rating", "euro-ncap-full-width", "--values", "filled.csv"]);
     assert_eq!(again["results"][0]["tests"][0]["result"], test["result"]);
+    // a workbook too, and sheets of other tests between
+    let book = [&["measures"], &both[..], &rating[..2], &["-o", "filled.xlsx"]].concat();
+    assert_eq!(code(&answer(here, &book)), 0);
+    let filled = std::fs::read_to_string(here.join("filled.csv")).unwrap();
+    let other = format!("Other\n{}\nPole,Driver,WorldSID,Head,HIC15,9,,\nOwn\n", filled.lines().next().unwrap());
+    std::fs::write(here.join("sheets.csv"), other + &filled).unwrap();
+    for name in ["filled.xlsx", "sheets.csv"] {
+        let again = rate(here, &["--rating", "euro-ncap-full-width", "--values", name]);
+        assert_eq!(again["results"][0]["tests"][0]["result"], test["result"], "{name}");
+    }
     let words = [&["measures"], &both[..], &rating].concat();
     assert!(code(&answer(here, &words)) != 0, "the file is there already");
     for (places, found) in [

@@ -45,11 +45,8 @@ impl Values {
         let mut sources = Sources::new();
         let id = sources.add_named(path.display().to_string(), measured::text(path)?);
         let mut reader = Reader { sources: &sources, rating, values: Values::default(), problems: Diagnostics::new() };
-        let mut all = lines(&sources, id);
-        match all.next() {
-            None => reader.wrong(sources.start_of(id), "an empty table", &COLUMNS.join(", ")),
-            Some(head) => reader.table(head, all),
-        }
+        let all: Vec<Span> = lines(&sources, id).collect();
+        reader.tables(sources.start_of(id), &all);
         if reader.problems.has_errors() {
             return Err(Failure::CouldNotRun(reader.problems.abridged(SHOWN).to_string()));
         }
@@ -83,24 +80,49 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn table(&mut self, head: Span, rest: impl Iterator<Item = Span>) {
-        let separator = Separator::of(self.sources.slice(head));
-        let heads = separator.cells(self.sources, head);
-        let columns = COLUMNS.map(|name| heads.iter().position(|cell| cell.text.eq_ignore_ascii_case(name)));
-        let lacks = |i: &usize| columns[*i].is_none();
-        if let Some(missing) = (PLACES - 1..COLUMNS.len()).find(lacks) {
-            return self.wrong(head, &format!("no column `{}`", COLUMNS[missing]), &COLUMNS.join(", "));
+    /// The tables of a text: several, with the names of their sheets between, if it is a workbook.
+    fn tables(&mut self, start: Span, all: &[Span]) {
+        let is_head = |line: &Span| self.columns(*line).iter().skip(PLACES - 1).all(Option::is_some);
+        let heads: Vec<usize> = (0..all.len()).filter(|i| is_head(&all[*i])).collect();
+        if heads.is_empty() {
+            return self.no_table(start, all.first());
         }
+        let ends = heads.iter().skip(1).copied().chain([all.len()]);
+        for (head, end) in heads.iter().zip(ends) {
+            self.table(all[*head], &all[head + 1..end], heads.len() > 1);
+        }
+    }
+
+    fn no_table(&mut self, start: Span, first: Option<&Span>) {
+        let Some(head) = first else { return self.wrong(start, "an empty table", &COLUMNS.join(", ")) };
+        let columns = self.columns(*head);
+        let missing = (PLACES - 1..COLUMNS.len()).find(|i| columns[*i].is_none()).unwrap_or(PLACES);
+        self.wrong(*head, &format!("no column `{}`", COLUMNS[missing]), &COLUMNS.join(", "));
+    }
+
+    /// Where the columns are in a line of headings.
+    fn columns(&self, head: Span) -> [Option<usize>; COLUMNS.len()] {
+        let heads = Separator::of(self.sources.slice(head)).cells(self.sources, head);
+        COLUMNS.map(|name| heads.iter().position(|cell| cell.text.eq_ignore_ascii_case(name)))
+    }
+
+    /// One table. One of several is left out if it begins with an occupant whom the rating does not have.
+    fn table(&mut self, head: Span, rest: &[Span], is_of_several: bool) {
+        let (separator, columns) = (Separator::of(self.sources.slice(head)), self.columns(head));
         let mut above: [Option<Cell<'a>>; PLACES] = [None; PLACES];
+        let mut is_known = !is_of_several;
         for line in rest {
-            let cells = separator.cells(self.sources, line);
+            let cells = separator.cells(self.sources, *line);
             let cell = |i: usize| columns[i].and_then(|column| cells.get(column)).filter(|cell| !cell.text.is_empty());
             for (i, known) in above.iter_mut().enumerate() {
                 *known = cell(i).copied().or(*known);
             }
-            if let Some(criterion) = cell(PLACES) {
-                self.row(separator, &above, criterion, cell(PLACES + 1));
+            let Some(criterion) = cell(PLACES) else { continue };
+            if !is_known && self.found(&above).is_empty() {
+                return;
             }
+            is_known = true;
+            self.row(separator, &above, criterion, cell(PLACES + 1));
         }
     }
 
@@ -147,12 +169,17 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The occupants that a line names.
+    fn found(&self, place: &[Option<Cell<'_>>]) -> Vec<&'static Occupant> {
+        let fits = |known: &str, i: usize| place[i].is_none_or(|cell| same(known, cell.text));
+        let is_it = |own: &&Occupant| fits(own.case, 0) && fits(own.seat, 1) && fits(own.label, 2);
+        self.rating.occupants().filter(is_it).collect()
+    }
+
     /// The occupant of a line; all of them if it names none.
     fn occupants(&mut self, place: &[Option<Cell<'_>>], span: Span) -> Option<Vec<&'static Occupant>> {
         let named = || place[..PLACES - 1].iter().flatten();
-        let fits = |known: &str, i: usize| place[i].is_none_or(|cell| same(known, cell.text));
-        let is_it = |own: &&Occupant| fits(own.case, 0) && fits(own.seat, 1) && fits(own.label, 2);
-        let found: Vec<_> = self.rating.occupants().filter(is_it).collect();
+        let found = self.found(place);
         if found.len() == 1 || named().next().is_none() {
             return Some(found);
         }

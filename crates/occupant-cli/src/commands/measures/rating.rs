@@ -195,6 +195,9 @@ impl Item<'_> {
 }
 
 fn show(args: &Args, rating: &'static Rating, all: Vec<One>) -> Result<Done, Failure> {
+    if let Some(file) = &args.output {
+        args.runs.iter().chain(&args.values).try_for_each(|input| refuse_input(file, input))?;
+    }
     let is_unmet = all.iter().any(|one| one.rated.is_unmet());
     if args.json {
         let told = |one: &One| Told::new(&one.file, &one.occupant, one.notes.clone(), &one.rated);
@@ -208,7 +211,6 @@ fn show(args: &Args, rating: &'static Rating, all: Vec<One>) -> Result<Done, Fai
         print(&texts.fold(head, |all, body| all + &body))?;
     }
     if let Some(file) = &args.output {
-        args.runs.iter().chain(&args.values).try_for_each(|input| refuse_input(file, input))?;
         filled(file, args.force, &all)?;
     }
     Ok(if is_unmet && args.strict { Done::Unwell } else { Done::Well })
