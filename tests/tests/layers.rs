@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Crates with their rooms from the lowest to the highest.
 const ROOMS: [(&str, &[&str]); 11] = [
     ("occupant-units", &["trig", "unit"]),
-    ("crash-measures", &["signal", "correlation", "measure", "injury"]),
+    ("crash-measures", &["signal", "correlation", "measure", "injury", "rating"]),
     (
         "vehicle-motion",
         &[
@@ -116,6 +116,7 @@ const ROOMS: [(&str, &[&str]); 11] = [
             "risk",
             "judged",
             "measures",
+            "rated",
             "keys",
             "report",
             "run",

@@ -25,6 +25,7 @@
 //! | [`signal`] | filters by channel class, integrals, resultants, resampling |
 //! | [`measure`] | HIC, 3 ms levels, Nij, chest, side, whiplash, legs, OIV, ORA, THIV, PHD, ASI, OLC; limits and risk curves |
 //! | [`injury`] | all measures of an occupant from his instruments at once |
+//! | [`rating`] | points, stars, grades and verdicts of crash tests from tables: Euro NCAP, US NCAP, IIHS, FMVSS, UN |
 //! | [`correlation`] | ISO 18571, CORA, Sprague and Geers, ANOVA |
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -32,4 +33,5 @@
 pub mod correlation;
 pub mod injury;
 pub mod measure;
+pub mod rating;
 pub mod signal;

@@ -344,7 +344,10 @@ fn every_name_of_an_answer_is_in_its_schema() {
         ("check", &["check", "case.toml", "--set", "posture.settle=true"]),
         ("measures", &["measures", "case.mcap", "--filter", "sae-j211"]),
         ("measures", &["measures", "case.mcap", "case.mcap"]),
+        ("rating", &["measures", "case.mcap", "--rating", "euro-ncap-2026-full-width"]),
+        ("rating", &["measures", "test.csv", "--rating", "us-ncap-frontal"]),
         ("compare", &["compare", "case.mcap", "test.csv"]),
+        ("compare", &["compare", "case.mcap", "test.csv", "--protocol", "far-side"]),
         ("risk", &["risk", "case.toml"]),
         (
             "sensitivity",

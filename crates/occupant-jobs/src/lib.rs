@@ -48,6 +48,7 @@ pub mod optimise;
 pub mod plot;
 pub mod print;
 pub mod quoted;
+pub mod rated;
 pub mod report;
 pub mod risk;
 pub mod run;

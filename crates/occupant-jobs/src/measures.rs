@@ -85,6 +85,8 @@ pub struct Judged {
     pub results: Results,
     /// Its summary, with the measures.
     pub summary: Summary,
+    /// What happened to the vehicles.
+    pub impact: Impact,
     /// Interval of the readings, ms.
     pub interval_ms: f64,
     /// Notes for the reader.
@@ -125,7 +127,7 @@ impl Judged {
             impact.judge(&mut summary, &results.model);
             notes.extend(impact.reasons(units));
         }
-        Ok(Judged { file: results.path.display().to_string(), results, summary, interval_ms, notes })
+        Ok(Judged { file: results.path.display().to_string(), results, summary, impact, interval_ms, notes })
     }
 
     /// What `--json` prints.

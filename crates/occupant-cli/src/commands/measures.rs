@@ -1,11 +1,13 @@
 //! `occupant measures`.
 
+mod rating;
 mod test;
 
 use std::path::PathBuf;
 
 use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
+use crash_measures::rating::Rating;
 use crash_measures::signal::CfcFamily;
 use occupant_core::results::summary::Person;
 use placed_text::shown;
@@ -21,17 +23,44 @@ use occupant_jobs::measures::{Asked, DUMMIES, FILTERS, Judged, options};
 
 /// Print injury measures of runs and tests, with limits and risk curves
 ///
-/// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij and others. Several runs share one table, with
-/// a column each. Simulated signals have no noise and are not filtered unless --filter asks for it. Exit code 1 if --strict
-/// is given and a limit is exceeded.
+/// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij and others. Several runs share one
+/// table, with a column each. Simulated signals have no noise and are not filtered unless --filter asks for it. Exit
+/// code 1 if --strict is given and a limit is exceeded.
 ///
-/// A test is a CSV table, an ISO-MME test (its folder or .mme file) or an NHTSA test. Its signals are identified by --map, by
-/// channel name (see `occupant channels`) or by ISO-MME code. Tests have noise: use --filter j211.
+/// With --rating the measures are rated as a test is: points, stars, grades or a verdict, region by region. What a body
+/// does not measure stays blank, with the reason.
+///
+/// A test is a CSV table, an ISO-MME test (its folder or .mme file) or an NHTSA test. Its signals are identified by
+/// --map, by channel name (see `occupant channels`) or by ISO-MME code. Tests have noise: use --filter j211.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`, or tests: CSV, ISO-MME folder or .mme file
-    #[arg(value_name = "RUN.mcap", required = true)]
+    #[arg(value_name = "RUN.mcap", required_unless_present = "values")]
     runs: Vec<PathBuf>,
+
+    /// Rate by the tables and rules of a rating
+    #[arg(long, value_name = "RATING", value_parser = rating::names())]
+    rating: Option<&'static Rating>,
+
+    /// Rate as these occupants of the rating: a part of case, seat and dummy, such as 'driver'. If absent, those with
+    /// the dummy of the measures, else the first. Given once for each body, in the order of the runs, all are rated
+    /// together
+    #[arg(long, value_name = "OCCUPANT", requires = "rating")]
+    place: Vec<String>,
+
+    /// Values of the rating's criteria from a table (CSV, XLSX) with the columns Loadcase, Seat position, Dummy, Body
+    /// region, Criteria, Value. They count before measures; without a run they are rated alone
+    #[arg(long, value_name = "FILE", requires = "rating")]
+    values: Option<PathBuf>,
+
+    /// Write criteria, values and blanks in the layout of --values, which is that of Euro NCAP's template: .csv, .xlsx,
+    /// .parquet
+    #[arg(short, long, value_name = "FILE", requires = "rating")]
+    output: Option<PathBuf>,
+
+    /// Replace the file of -o
+    #[arg(short, long, requires = "output")]
+    force: bool,
 
     /// Filter each channel by its class (CFC: head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
     #[arg(long, value_name = "CLASS", default_value = "none", value_parser = one_of(&FILTERS))]
@@ -41,8 +70,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
     coefficients: CfcFamily,
 
-    /// Run the case again and sample it at this interval, such as '0.1 ms'. A file has samples every 0.1 ms, or every step if a
-    /// fixed step is longer. A filter needs 0.1 ms and runs the case again if the file is coarser
+    /// Run the case again and sample it at this interval, such as '0.1 ms'. A file has samples every 0.1 ms, or every
+    /// step if a fixed step is longer. A filter needs 0.1 ms and runs the case again if the file is coarser
     #[arg(long, value_name = "TIME", value_parser = interval)]
     interval: Option<f64>,
 
@@ -50,7 +79,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DUMMY", value_parser = one_of(&DUMMIES))]
     dummy: Option<Dummy>,
 
-    /// Print passed or EXCEEDED for people too. Limits are made for dummies, and for a person's body they are yardsticks
+    /// Print passed or EXCEEDED for people too. Limits are made for dummies, and for a person's body they are
+    /// yardsticks
     #[arg(long)]
     verdict: bool,
 
@@ -78,6 +108,9 @@ impl Args {
 /// Prints the measures of runs.
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let options = args.options();
+    if args.runs.is_empty() {
+        return rating::values_alone(args);
+    }
     if args.runs.iter().any(|file| test::is_test(file)) {
         return test::measures(args, &options);
     }
@@ -90,6 +123,9 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     };
     let all = args.runs.iter().map(judged);
     let all = all.collect::<Result<Vec<_>, _>>()?;
+    if let Some(rating) = args.rating {
+        return rating::runs(args, rating, &all);
+    }
     if args.json {
         let answers: Vec<_> = all.iter().map(Judged::answer).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;

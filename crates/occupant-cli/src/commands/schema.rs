@@ -34,6 +34,8 @@ enum Of {
     Check,
     /// Output of `measures --json`
     Measures,
+    /// Output of `measures --rating NAME --json`
+    Rating,
     /// Output of `compare --json`
     Compare,
     /// Output of `risk --json`
@@ -82,6 +84,7 @@ pub(crate) fn print(args: &Args) -> Result<(), Failure> {
         Of::Run => "run",
         Of::Check => "check",
         Of::Measures => "measures",
+        Of::Rating => "rating",
         Of::Compare => "compare",
         Of::Risk => "risk",
         Of::Sensitivity => "sensitivity",

@@ -4,7 +4,7 @@ use std::path::Path;
 use super::{answer, code, err, folder_with_case, json, out};
 
 /// A table at 10 kHz of half a sine of 40 ms from 10 ms on in each of these columns.
-fn table(path: &Path, columns: &[(&str, f64)]) {
+pub(super) fn table(path: &Path, columns: &[(&str, f64)]) {
     let mut text = String::from("t[ms]");
     columns.iter().for_each(|(heading, _)| text += &format!(",{heading}"));
     for i in 0..800 {

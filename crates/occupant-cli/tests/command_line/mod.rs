@@ -8,6 +8,7 @@ mod interrupt;
 mod measures;
 mod new;
 mod problems;
+mod rating;
 mod resume;
 mod run;
 mod windows;

@@ -3,6 +3,7 @@
 mod compare;
 mod export;
 mod plot;
+mod protocol;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

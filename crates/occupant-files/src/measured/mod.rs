@@ -127,6 +127,14 @@ pub fn read(path: &Path) -> Result<Recording, Failure> {
     table_of(path, None)
 }
 
+/// Text of a table, or of a workbook's sheet as CSV.
+///
+/// # Errors
+/// A file that cannot be read, or that is no text and no workbook.
+pub fn text(path: &Path) -> Result<String, Failure> {
+    as_text(path, input_file::read(path)?).map(|(text, ..)| text)
+}
+
 /// Refuses files written by this program that are no records.
 fn refuse_own(path: &Path) -> Result<(), Failure> {
     let name = quoted(path.display());

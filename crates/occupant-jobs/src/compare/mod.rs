@@ -1,6 +1,7 @@
 //! Rating of a run against a test or another run, channel by channel.
 
 mod couples;
+mod protocol;
 mod rating;
 
 use std::path::Path;
@@ -16,6 +17,7 @@ use occupant_files::measured::MapArgument;
 use occupant_files::results::Results;
 use rating::{Rating, rate};
 
+pub use protocol::{PROTOCOLS, Protocol, Validation};
 pub use rating::{RATE_HZ, Track, Window, overlap, sampled};
 
 /// A requested comparison.
@@ -36,6 +38,8 @@ pub struct Request<'a> {
     pub treatment: Treatment,
     /// Description of the filter.
     pub filter: String,
+    /// The protocol that the model is validated by.
+    pub protocol: Option<Protocol>,
 }
 
 /// The ratings, as `--json` prints them.
@@ -47,6 +51,9 @@ pub struct Comparison {
     filter: String,
     shift_s: f64,
     pairs: Vec<RatedPair>,
+    /// Result of the protocol.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub protocol: Option<Validation>,
     /// Notes for the reader.
     pub notes: Vec<String>,
     /// Reasons why results are invalid, by run.
@@ -114,7 +121,8 @@ pub fn compare(request: &Request<'_>) -> Result<Comparison, Failure> {
         let filter = class_name(couple.class);
         Ok(RatedPair { channel: couple.channel, signal: couple.measured.signal, filter, rating })
     };
-    let pairs = couples.into_iter().map(rated).collect::<Result<_, Failure>>()?;
+    let pairs = couples.into_iter().map(rated).collect::<Result<Vec<_>, Failure>>()?;
+    let protocol = request.protocol.map(|protocol| protocol::validate(protocol, request, &pairs)).transpose()?;
     let [computed, measured] = sha256;
     let source = |path: &Path, sha256| Source { file: file_name(path), sha256 };
     Ok(Comparison {
@@ -124,6 +132,7 @@ pub fn compare(request: &Request<'_>) -> Result<Comparison, Failure> {
         filter: request.filter.clone(),
         shift_s: request.window.shift_s,
         pairs,
+        protocol,
         notes: remarks.notes,
         worthless: remarks.worthless,
     })
@@ -172,6 +181,7 @@ impl Comparison {
             RATE_HZ / 1e3
         );
         text.push_str(&self.at_a_glance());
+        text.extend(self.protocol.iter().map(|protocol| format!("\n{}", protocol.text())));
         for pair in &self.pairs {
             let lines = facts(&pair.rating.lines(&pair.filter));
             text.push_str(&format!("\n{} against {}\n{lines}", pair.channel, pair.signal));

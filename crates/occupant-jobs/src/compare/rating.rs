@@ -53,12 +53,20 @@ pub struct Rating {
     /// Name of each metric and its scores as text.
     #[serde(skip)]
     words: Vec<(&'static str, String)>,
+    /// Largest magnitude of the computed history.
+    #[serde(skip)]
+    largest_computed: f64,
 }
 
 impl Rating {
     /// A score of a metric by its key; none if it was not rated.
     pub fn score(&self, metric: &str, score: &str) -> Option<f64> {
         self.scores.get(metric)?.get(score)?.as_f64()
+    }
+
+    /// Largest magnitude of the computed history, SI.
+    pub fn largest_computed(&self) -> f64 {
+        self.largest_computed
     }
 
     /// Text lines of a name and its scores; `filter` describes the filter of both sides.
@@ -131,7 +139,8 @@ pub fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> Result<
         scores.insert(key.to_owned(), score);
     }
     let to_s = from_s + (samples - 1) as f64 * DT_S;
-    Ok(Rating { from_s, to_s, samples, rate_hz: RATE_HZ, scores, problems, words })
+    let largest_computed = sampled.computed.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    Ok(Rating { from_s, to_s, samples, rate_hz: RATE_HZ, scores, problems, words, largest_computed })
 }
 
 /// Scores from 0 to 1, and the lag of the computed history.

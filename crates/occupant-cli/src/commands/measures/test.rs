@@ -106,6 +106,10 @@ pub(super) fn measures(args: &Args, options: &Options) -> Result<Done, Failure> 
         ));
     }
     let all = args.runs.iter().map(|file| Judged::of(file, args, options)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(rating) = args.rating {
+        let tests: Vec<_> = all.iter().map(|one| (one.file.as_str(), &one.measures[..], &one.read.notes[..])).collect();
+        return super::rating::tests(args, rating, options.dummy, &tests);
+    }
     let units = args.units.or(None);
     if args.json {
         let answers: Vec<_> = all.iter().map(|one| one.answer(options)).collect();
