@@ -107,7 +107,7 @@ impl Code {
 
 /// Dictionary position of a model's channel; none if the dictionary has none.
 pub fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
-    let Some((kind, rest)) = channel.name.split_once('.') else { return None };
+    let (kind, rest) = channel.name.split_once('.')?;
     let setup = model.setup();
     let is_first =
         |names: &mut dyn Iterator<Item = &String>, name: &str| names.next().is_some_and(|first| first == name);

@@ -36,6 +36,13 @@ def test_salib():
     assert len(table["index"]) == 4 * (4 + 2) and np.isfinite(found["ST"]).all()
 
 
+def test_response_surface():
+    names = example("response_surface", "sklearn")
+    found = names["errors"](*names["table"](40))
+    assert {*found} == {"quadratic", "Gaussian process"}
+    assert all(error < 4e-3 and explained > 0.9 for _, error, explained in found.values())
+
+
 def test_gymnasium():
     names = example("gymnasium_belt", "gymnasium")
     from gymnasium.utils.env_checker import check_env
