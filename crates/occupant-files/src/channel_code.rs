@@ -109,6 +109,10 @@ impl Code {
 pub fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     let (kind, rest) = channel.name.split_once('.')?;
     let setup = model.setup();
+    // of several occupants, nothing says which of these is whose
+    if ["belt", "strap", "bag", "column"].contains(&kind) && model.body().tree.bodies().len() > 1 {
+        return None;
+    }
     let is_first =
         |names: &mut dyn Iterator<Item = &String>, name: &str| names.next().is_some_and(|first| first == name);
     let beside = |location, third, dimension, direction| {
@@ -158,8 +162,13 @@ fn strap_point(model: &Model, name: &str) -> Option<&'static str> {
     let last = chain.nodes.len().checked_sub(1)?;
     let parts = |i: &usize| *i == 0 || *i == last || chain.nodes[*i].parts();
     let ends: Vec<usize> = (0..=last).filter(parts).collect();
-    let [from, to] = [ends.get(number)?, ends.get(number + 1)?].map(|i| &chain.nodes[*i]);
+    let [first, end] = [*ends.get(number)?, *ends.get(number + 1)?];
+    let (from, to) = (&chain.nodes[first], &chain.nodes[end]);
+    let over = |wanted: Part| chain.nodes[first + 1..end].iter().any(|node| part_of(model, node) == wanted);
     match [from, to].map(|node| part_of(model, node)) {
+        // webbing that runs freely over the body is one strap
+        [Part::Anchor, Part::Anchor] if over(Part::Pelvis) => Some("B6"),
+        [Part::Anchor, Part::Anchor] if over(Part::Chest) => Some("B3"),
         [Part::Anchor, Part::Anchor] => (number == 0 && chain.device.reel.is_some()).then_some("B1"),
         [Part::Anchor, Part::Chest] => Some(if is_beside(model, chain, from, Part::Pelvis) { "B4" } else { "B3" }),
         [Part::Chest, Part::Anchor] => Some(if is_beside(model, chain, to, Part::Pelvis) { "B4" } else { "B3" }),

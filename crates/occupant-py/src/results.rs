@@ -8,7 +8,7 @@ use occupant_files::measured::MapArgument;
 use occupant_files::results::Results;
 use occupant_files::scenario::Opened;
 use occupant_jobs::base::{Failure, Units};
-use occupant_jobs::compare::{Request, Window, compare as rate};
+use occupant_jobs::compare::{PROTOCOLS, Request, Window, compare as rate};
 use occupant_jobs::files::history::Treatment;
 use occupant_jobs::report::{MOST_RUNS, page_judged};
 use occupant_jobs::view::{
@@ -76,11 +76,11 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Run> {
 /// file; `measured`: a test (CSV, ISO-MME folder or .mme file), a Run or a result file. `channels`: names and patterns,
 /// all that both have if empty; `maps`: assignments of columns, 'column[unit]=channel'; `seat`: position code in
 /// ISO-MME names; `start`, `end`, `shift`, s; `filter`: "none", "j211" or a class such as "CFC180"; `coefficients`:
-/// "iso6487" or "sae-j211". A run that failed or lost its energy balance has no valid ratings: `worthless` gives the
+/// "iso6487" or "sae-j211"; `protocol`: also the validation by "far-side" or "frontal". A run that failed or lost its energy balance has no valid ratings: `worthless` gives the
 /// reasons.
 #[pyfunction]
 #[pyo3(signature = (computed, measured, channels=Vec::new(), maps=Vec::new(), seat='1', start=None, end=None, shift=0.0,
-    filter="none", coefficients="iso6487"))]
+    filter="none", coefficients="iso6487", protocol=None))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn compare(
     py: Python<'_>,
@@ -94,7 +94,9 @@ pub(crate) fn compare(
     shift: f64,
     filter: &str,
     coefficients: &str,
+    protocol: Option<&str>,
 ) -> PyResult<Py<PyAny>> {
+    let protocol = protocol.map(|name| one_of("protocol", name, &PROTOCOLS)).transpose()?;
     let folder = tempfile::tempdir()?;
     let computed = Given::of(computed)?.file(py, &folder, 0)?;
     let measured = Given::of(measured)?.file(py, &folder, 1)?;
@@ -117,6 +119,7 @@ pub(crate) fn compare(
             window: Window { from_s: start, to_s: end, shift_s: shift },
             treatment,
             filter: treatment.words(),
+            protocol,
         })
     })?;
     let answer = json_of(&comparison, py)?;

@@ -301,6 +301,7 @@ impl Study {
                 csv: csv || plan.study.csv,
                 folder: Folder::at(&folder),
                 engine: engine(threads)?,
+                kernel: None,
                 interrupt: interrupt.clone(),
                 restart,
                 show: SHOW,

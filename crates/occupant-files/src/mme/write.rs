@@ -1,5 +1,6 @@
 //! Writing a test: SI values in SAE J211 axes, one file a channel.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -39,13 +40,14 @@ pub fn files(model: &Model, histories: &Histories, labels: &Labels) -> Result<(V
     let interval_s = uniform_interval(&histories.time_s)
         .map_err(|e| format!("ISO-MME channels need equally spaced samples ({e}); resample them with --interval"))?;
     histories.check()?;
-    let mut files = Vec::new();
+    let (mut files, mut codes) = (Vec::new(), HashSet::new());
     let mut without = Vec::new();
     let mut list = String::new();
     for column in &histories.columns {
         let coded = place_of(model, &column.channel)
             .and_then(|p| Some((p, Code::new(&p, labels.seat, &labels.dummy, column.class)?)));
-        let Some((place, code)) = coded else {
+        // a code stands for one channel
+        let Some((place, code)) = coded.filter(|(_, code)| codes.insert(*code)) else {
             without.push(column.channel.name.clone());
             continue;
         };

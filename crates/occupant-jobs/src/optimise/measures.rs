@@ -58,6 +58,8 @@ struct Finder<'a> {
     figures: &'a [Figure],
     problems: Vec<Diagnostics>,
     measures: Measures,
+    /// Whether the median of the members counts.
+    is_median: bool,
 }
 
 impl Measures {
@@ -75,7 +77,8 @@ impl Measures {
         let (all, uses, goals, per, limits) = Default::default();
         let members = members as usize;
         let measures = Measures { all, uses, goals, per, limits, members, quantile: of.quantile };
-        let mut finder = Finder { text, figures, problems: Vec::new(), measures };
+        let is_median = of.quantile == 0.5;
+        let mut finder = Finder { text, figures, problems: Vec::new(), measures, is_median };
         for goal in &of.goals {
             let Some(at) = finder.value(&goal.measure, !goal.is_maximised, &goal.at) else { continue };
             let unit = finder.unit(at);
@@ -85,7 +88,7 @@ impl Measures {
                 None => own.map(f64::abs).filter(|x| *x > 0.0),
             };
             let given = goal.per.is_some();
-            match per.filter(|per| *per > 0.0 && per.is_finite()) {
+            match per.filter(|per| *per > 0.0 && per.is_finite() && (goal.weight / per).is_finite()) {
                 Some(per) => {
                     let sign = if goal.is_maximised { -1.0 } else { 1.0 };
                     finder.measures.goals.push((at, sign * goal.weight / per));
@@ -94,7 +97,7 @@ impl Measures {
                 None if given && per.is_none() => {}
                 None => {
                     let (path, found) = match given {
-                        true => (&goal.at_per, "a divisor that is not above 0".to_owned()),
+                        true => (&goal.at_per, "a divisor that is not above 0, or too small".to_owned()),
                         false => {
                             (&goal.at, format!("the base scenario has no value of `{}` to divide by", goal.measure))
                         }
@@ -208,8 +211,9 @@ impl Finder<'_> {
             all.len() - 1
         });
         let wanted = (measure, high_is_bad);
-        // of one run both sides have the same value
-        let same = |of: &(usize, bool)| if *members == 1 { of.0 == measure } else { *of == wanted };
+        // of one run, and of the median, both sides have the same value
+        let is_one = *members == 1 || self.is_median;
+        let same = |of: &(usize, bool)| if is_one { of.0 == measure } else { *of == wanted };
         Some(uses.iter().position(same).unwrap_or_else(|| {
             uses.push(wanted);
             uses.len() - 1

@@ -297,7 +297,9 @@ fn parameter(of: &Optimising, answer: &Answer, i: usize) -> Tuned {
 fn best(of: &Optimising, records: &[Record]) -> Vec<Candidate> {
     let tried = records.iter().enumerate().filter(|(_, r)| r.at.is_some() && r.reason.is_none());
     let mut order: Vec<(usize, &Record)> = tried.collect();
-    order.sort_by(|a, b| a.1.score.total_cmp(&b.1.score).then(a.0.cmp(&b.0)));
+    // scores are clamped, ranks are not
+    let by_rank = |a: &Record, b: &Record| of.trial(a).rank().partial_cmp(&of.trial(b).rank());
+    order.sort_by(|a, b| by_rank(a.1, b.1).unwrap_or(std::cmp::Ordering::Equal).then(a.0.cmp(&b.0)));
     order.dedup_by(|a, b| a.1.at == b.1.at);
     order.into_iter().take(LISTED).map(|(index, record)| candidate(of, index, record)).collect()
 }
@@ -355,14 +357,17 @@ fn remarks(of: &Optimising, answer: &Answer, result: &Optimum) -> Vec<String> {
         Rank::Beyond(_) => {
             all.push("no candidate is within all limits: the best is the one that exceeds them least".to_owned())
         }
-        Rank::Refused(_) => all.push(format!(
-            "all candidates within the limits have caveats, such as {}: `allow_caveats` says which do not matter",
+        Rank::Refused(sum) => all.push(format!(
+            "all candidates{} have caveats, such as {}: `allow_caveats` says which do not matter",
+            if sum > 0.0 { "" } else { " within the limits" },
             count.caveats.as_deref().unwrap_or("none")
         )),
         Rank::Allowed(_) | Rank::Failed => {}
     }
     for parameter in &result.parameters {
-        if let Some(bound) = parameter.at_bound {
+        let inner = &parameter.neighbours[usize::from(parameter.at_bound == Some("lower"))];
+        let has_influence = inner.as_ref().is_none_or(|n| n.goal != Some(result.goal.after));
+        if let Some(bound) = parameter.at_bound.filter(|_| has_influence) {
             all.push(format!("{} is at its {bound} bound: a wider range may have a better optimum", parameter.name));
         }
     }
@@ -370,8 +375,15 @@ fn remarks(of: &Optimising, answer: &Answer, result: &Optimum) -> Vec<String> {
         let reason = count.reason.as_deref().unwrap_or("no reason");
         all.push(format!("{} of {} candidates could not be run; the first one: {reason}", count.failed, count.all));
     }
-    if answer.neighbours.is_none() {
+    if of.trial(&answer.before).rank() < answer.found.trial.rank() {
+        all.push("no candidate is better than the base scenario: give a larger budget".to_owned());
+    }
+    if answer.is_moving {
         all.push("the budget ended while neighbours were still better: a larger one finds a better optimum".to_owned());
+    } else if answer.neighbours.is_none() {
+        all.push(
+            "the budget ended before all neighbours were seen: a larger one shows what the optimum hangs on".to_owned(),
+        );
     }
     let is_settled = answer.found.descents.iter().any(|d| d.ending != occupant_study::search::Ending::Budget);
     if answer.found.regions == 0 && !is_settled {

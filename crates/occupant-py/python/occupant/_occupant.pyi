@@ -26,6 +26,7 @@ def compare(
     shift: float = 0.0,
     filter: str = "none",
     coefficients: str = "iso6487",
+    protocol: str | None = None,
 ) -> dict[str, Any]: ...
 def report(
     *runs: Run | _Path, path: _Path, channels: Sequence[str] = ..., verdict: bool = False, force: bool = False

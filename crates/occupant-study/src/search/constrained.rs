@@ -192,6 +192,8 @@ pub fn search_within<E>(how: &Descents, front: u64, evaluate: &mut Try<'_, E>) -
         let how = Descents { start, next: starts.collect(), evaluations: left, ..how.clone() };
         descents = priced_descents(&how, &mut best, &mut tried, evaluate)?;
     }
+    // a descent of at least one generation may have taken more than its part
+    for_front = for_front.min(how.evaluations.saturating_sub(tried.points.len() as u64));
     for point in 0..front {
         let share = for_front / (front - point);
         let Some(aim) = Aim::on_front(&tried, point, front, how.seed) else { break };

@@ -219,7 +219,7 @@ impl<'a> Modelled<'a> {
         let goals: Vec<f64> =
             self.tried.trials.iter().filter(|t| t.is_known()).map(|t| self.aim.of(t.terms())).collect();
         let scale = now.abs().max(range(&goals));
-        earlier - now < region.ends[1] * scale
+        earlier - now <= region.ends[1] * scale
     }
 
     /// The aim of a candidate with what it exceeds, by the prices of limits.
