@@ -159,6 +159,47 @@ fn a_front_shows_what_one_goal_costs_of_the_other() {
 }
 
 #[test]
+fn small_budgets_are_kept_and_what_they_leave_open_is_said() {
+    let goals = "[[optimise.goals]]\nminimise = \"head_excursion.forward\"\nper = \"100 mm\"\n\
+         [[optimise.goals]]\nmaximise = \"energy.greatest_kinetic\"\nper = \"100 J\"\n";
+    for (budget, front) in [(5, 2), (10, 4), (20, 100), (24, 8), (60, 8)] {
+        let study = OF_FREE.replace("budget = 160", &format!("budget = {budget}\nfront = {front}"));
+        let folder = free(&format!("{study}{goals}"));
+        done(folder.path(), &["optimise", "study.toml", "-o", "out", "-q"]);
+        let all = found(folder.path(), "out")["candidates"]["all"].as_u64().unwrap();
+        // with the base scenario; at least one generation is run
+        assert!(all <= 1 + 16.max(budget), "{budget} {front}: {all}");
+        let again = answer(folder.path(), &["optimise", "study.toml", "-o", "out"]);
+        assert!(!err(&again).contains("damaged"), "{}", err(&again));
+    }
+    // the base scenario is the best there is
+    let study = OF_FREE.replace("budget = 160", "budget = 5\nminimise = \"head_excursion.forward\"");
+    let folder = free(&study);
+    fs::write(folder.path().join("free.toml"), FREE.replace("2 m/s", "0.5 m/s").replace("40 ms", "60 ms")).unwrap();
+    let told = done(folder.path(), &["optimise", "study.toml", "-o", "out"]);
+    assert!(told.contains("no candidate is better than the base scenario"), "{told}");
+}
+
+#[test]
+fn goals_of_any_size_and_both_sides_of_a_median_are_told_right() {
+    let study = format!("{OF_FREE}[[optimise.goals]]\nminimise = \"head_excursion.forward\"\nper = 1e-10\n")
+        .replace("160", "60");
+    let folder = free(&study);
+    done(folder.path(), &["optimise", "study.toml", "-o", "out", "-q"]);
+    let told = found(folder.path(), "out");
+    assert_eq!(number(&told["best"][0]["goal"]), number(&told["goal"]["after"]));
+    let study = OF_FREE.replace(
+        "budget = 160",
+        "budget = 40\nquantile = 0.5\nminimise = \"head_excursion.forward\"\n\
+         constraints = [{ measure = \"head_excursion.forward\", at_least = \"50 mm\" }]",
+    );
+    let folder = free(&format!("{study}[ensemble]\nmembers = 3\npath = \"2 %\"\n"));
+    done(folder.path(), &["optimise", "study.toml", "-o", "out", "-q"]);
+    let told = found(folder.path(), "out");
+    assert_eq!(told["goals"][0]["measure"], told["constraints"][0]["measure"]);
+}
+
+#[test]
 fn two_parameters_end_where_a_grid_does() {
     let folder = folder_with(BELTS);
     let at = folder.path();

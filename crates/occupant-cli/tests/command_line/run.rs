@@ -298,6 +298,19 @@ fn a_run_that_fails_says_when_and_why_and_leaves_what_it_has() {
 }
 
 /// Beyond 2.785, where the method of a fixed step ends, friction chatters and the energy balance shows it; not from 2 on.
+/// Speeds of a run that has blown up ask for parts of steps that no clock can tell: it ends with a reason instead.
+#[test]
+fn a_run_that_blows_up_ends() {
+    let folder = folder_with_case();
+    let mut words = vec!["run", "case.toml", "--no-mcap"];
+    for set in ["time.end='60 ms'", "integrator.step='1 ms'", "belts.lap.k1=4.5727e11", "belts.torso.slack=0.0279594"] {
+        words.extend(["--set", set]);
+    }
+    let output = answer(folder.path(), &words);
+    assert_eq!(code(&output), 1);
+    assert!(err(&output).contains("is no longer finite"), "{}", err(&output));
+}
+
 #[test]
 fn friction_is_too_stiff_where_the_energy_balance_says_so() {
     let folder = tempfile::tempdir().unwrap();

@@ -121,6 +121,17 @@ fn an_iso_mme_test_has_the_webbing_the_bag_and_the_column() {
     assert!(!list.contains("right_wing_left_wing"));
 }
 
+/// Of two occupants nothing says whose a belt is: none has a code, and no code stands twice.
+#[test]
+fn an_iso_mme_test_of_two_has_no_code_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/studies/euro-ncap-cases/car.toml");
+    well(folder.path(), &["run", scenario, "--set", "time.end='10 ms'", "-o", "a.mcap", "-q"]);
+    well(folder.path(), &["export", "a.mcap", "-o", "T1.mme", "--interval", "1 ms"]);
+    let list = std::fs::read_to_string(folder.path().join("T1/Channel/T1.chn")).unwrap();
+    assert!(!list.contains("SEBE") && !list.contains("AIRB") && list.contains("10VEHCCG0000ACX0"), "{list}");
+}
+
 #[test]
 fn an_iso_mme_test_has_codes_units_and_j211_signs() {
     let folder = tempfile::tempdir().unwrap();

@@ -68,6 +68,9 @@ impl Iterator for Stretch {
     }
 }
 
+/// Least part of a step. Only speeds of a run that has blown up ask for less, and it would never end.
+const LEAST_PART: f64 = 1e-4;
+
 impl Step {
     /// Length, s.
     #[inline]
@@ -110,7 +113,8 @@ impl Step {
     #[inline]
     pub(crate) fn first_part(self, bears: impl FnOnce(f64) -> f64) -> Step {
         let whole_s = self.length_s();
-        let length_s = bears(whole_s);
+        let (bears_s, least_s) = (bears(whole_s), LEAST_PART * whole_s);
+        let length_s = if bears_s < least_s { least_s } else { bears_s };
         let end_s = self.start_s + length_s;
         // a rest that the clock can hardly tell is no step
         if length_s < whole_s && end_s < self.end_s - 1e-3 * length_s { Step { end_s, ..self } } else { self }
