@@ -97,7 +97,8 @@ def all_cases(old: str) -> list[list[Case]]:
         group(f"deck-{path.stem}", path, "deck", beside=beside, table=table)
     for path in sorted(scenarios.glob("studies/*.toml")):
         group(path.stem, path, "study", *(["ensemble"] if "[ensemble]" in path.read_text() else []))
-    for path in sorted(scenarios.glob("studies/fit-cart/*.toml")):
+    # the folder also has their scenario
+    for path in (path for path in sorted(scenarios.glob("studies/fit-cart/*.toml")) if "[fit]" in path.read_text()):
         test = "" if "[[fit.tests]]" in path.read_text() else "--to ../../scenarios/studies/fit-cart/test-20mph.csv"
         group(f"fit-{path.stem}", path, "fit", test=test)
     group("record", scenarios / "side-slope-sensors.csv", "record")
