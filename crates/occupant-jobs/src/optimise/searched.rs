@@ -13,6 +13,8 @@ pub const STEP: f64 = 0.02;
 const STEPS: [f64; 3] = [0.02, 0.005, 0.00125];
 /// Gain of the goal, as a fraction, below which a neighbour is as good.
 const TINY: f64 = 1e-6;
+/// Part of the distance below which a neighbour is the same candidate.
+const NEAR: f64 = 0.01;
 /// Number of times that all neighbours are looked at, if each time one is better.
 const LOOKS: u64 = 8;
 /// One of this many candidates is kept for them at most.
@@ -113,7 +115,9 @@ fn is_better(one: &Trial, other: &Trial) -> bool {
 fn around(at: &[f64], step: f64) -> Vec<[Option<Vec<f64>>; 2]> {
     let neighbour = |i: usize, step: f64| {
         let u = (at[i] + step).clamp(0.0, 1.0);
-        (u != at[i]).then(|| at.iter().enumerate().map(|(j, x)| if i == j { u } else { *x }).collect())
+        // a bound that is reached but for rounding has nothing beyond
+        ((u - at[i]).abs() > NEAR * step.abs())
+            .then(|| at.iter().enumerate().map(|(j, x)| if i == j { u } else { *x }).collect())
     };
     (0..at.len()).map(|i| [neighbour(i, -step), neighbour(i, step)]).collect()
 }
