@@ -92,6 +92,17 @@ impl Code {
         fits.then_some(place.sign)
     }
 
+    /// Ratio of our value to the coded one, if this is the channel at a position of webbing, bag or column.
+    pub fn sign_at(&self, place: &Place, seat: char) -> Option<f64> {
+        let third = place.third?;
+        let fits = self.part(2, 6) == &place.location[..4]
+            && (third == "00" || third == self.part(10, 12))
+            && self.part(12, 14) == place.dimension
+            && (place.direction == '0' || char::from(self.0[14]) == place.direction)
+            && self.is_at(seat);
+        fits.then_some(place.sign)
+    }
+
     /// Location on the vehicle and axis (from 0) of a vehicle acceleration.
     pub fn vehicle_acceleration(&self) -> Option<(String, usize)> {
         let axis = "XYZ".find(char::from(self.0[14]))?;

@@ -115,7 +115,7 @@ fn known(maps: &[MapArgument], goals: &[(String, Unit, Goal)]) -> Result<(), Fai
 }
 
 fn wanted(name: &str, unit: Unit) -> Wanted {
-    Wanted { name: name.to_owned(), unit: Some((unit.dimension(), unit.symbol().to_owned())) }
+    Wanted { name: name.to_owned(), unit: Some((unit.dimension(), unit.symbol().to_owned())), place: None }
 }
 
 /// All signals used by measures.

@@ -167,9 +167,9 @@ fn labels(runs: &[Results]) -> Vec<String> {
 }
 
 fn overlays(request: &Request<'_>, names: &[String], notes: &mut Vec<String>) -> Result<Vec<Overlay>, Failure> {
-    let known = |n: &String| request.runs.iter().find_map(|r| find(&r.model, n).ok());
-    let known: Vec<Channel> = names.iter().filter_map(known).collect();
-    let wanted: Vec<Wanted> = known.iter().map(Wanted::from).collect();
+    let known = |n: &String| request.runs.iter().find_map(|r| Some((&r.model, find(&r.model, n).ok()?)));
+    let (models, known): (Vec<_>, Vec<Channel>) = names.iter().filter_map(known).unzip();
+    let wanted: Vec<Wanted> = models.into_iter().zip(&known).map(|(model, own)| Wanted::of(model, own)).collect();
     let mut overlays = Vec::new();
     for path in request.tests {
         let recording = measured::read(path)?;

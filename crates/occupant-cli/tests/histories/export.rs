@@ -119,6 +119,12 @@ fn an_iso_mme_test_has_the_webbing_the_bag_and_the_column() {
         assert!(list.contains(&format!("{code} / {channel}\n")), "{code} {channel}: {list}");
     }
     assert!(!list.contains("right_wing_left_wing"));
+    // and is paired with them again
+    let told = well(folder.path(), &["compare", "a.mcap", "T1", "--channel", "strap.*.force,bag.*.pressure,column.*"]);
+    let told = String::from_utf8(told.stdout).unwrap();
+    for channel in ["d_ring_shoulder.force", "left_wing_sill.force", "bag.driver.pressure", "column.column.stroke"] {
+        assert!(told.contains(channel), "{channel}: {told}");
+    }
 }
 
 /// Of two occupants nothing says whose a belt is: none has a code, and no code stands twice.

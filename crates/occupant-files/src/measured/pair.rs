@@ -7,11 +7,13 @@ use std::fmt;
 use std::str::FromStr;
 
 use crash_measures::signal::{CfcFamily, ChannelClass, uniform_interval};
+use occupant_core::model::Model;
 use occupant_core::results::channel::Channel;
 use occupant_units::unit::Dimension;
 use placed_text::name_and_unit;
 
 use crate::base::Failure;
+use crate::channel_code::{Place, place_of};
 use crate::history::filtered;
 use crate::signals::{Recording, Signal, scale_of};
 
@@ -22,18 +24,28 @@ pub struct Wanted {
     pub name: String,
     /// Its dimension and unit; none if it is itself measured and has no unit.
     pub unit: Option<(Dimension, String)>,
+    /// Its position in the dictionary of ISO-MME codes, where only the model tells it.
+    pub place: Option<Place>,
+}
+
+impl Wanted {
+    /// A channel of a model.
+    pub fn of(model: &Model, channel: &Channel) -> Self {
+        Wanted { place: place_of(model, channel), ..Wanted::from(channel) }
+    }
 }
 
 impl From<&Channel> for Wanted {
     fn from(channel: &Channel) -> Self {
-        Wanted { name: channel.name.clone(), unit: Some((channel.unit.dimension(), channel.unit.symbol().to_owned())) }
+        let unit = Some((channel.unit.dimension(), channel.unit.symbol().to_owned()));
+        Wanted { name: channel.name.clone(), unit, place: None }
     }
 }
 
 impl From<&Signal> for Wanted {
     fn from(signal: &Signal) -> Self {
         let unit = signal.scale.map(|s| s.dimension).zip(signal.unit.clone());
-        Wanted { name: signal.name.clone(), unit }
+        Wanted { name: signal.name.clone(), unit, place: None }
     }
 }
 
@@ -173,7 +185,10 @@ fn signal_for<'a>(
     if let Some(signal) = recording.signals.iter().find(|s| s.name == wanted.name) {
         return Ok(Some((signal, None, 1.0)));
     }
-    let sign = |s: &Signal| s.code.as_ref().and_then(|c| c.sign_for(&wanted.name, seat));
+    let sign = |s: &Signal| {
+        let code = s.code.as_ref()?;
+        code.sign_for(&wanted.name, seat).or_else(|| code.sign_at(wanted.place.as_ref()?, seat))
+    };
     let fitting: Vec<Match<'a>> = recording.signals.iter().filter_map(|s| Some((s, None, sign(s)?))).collect();
     match fitting.as_slice() {
         [] => Ok(None),

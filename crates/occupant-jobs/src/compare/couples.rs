@@ -51,7 +51,7 @@ fn run_and_test(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> 
     let test = read(request.measured, remarks)?;
     let channels = choose(&run.model, request.channels)?;
     let channels = filterable(channels, &[run], request.treatment, &mut remarks.notes);
-    let wanted: Vec<Wanted> = channels.iter().map(Wanted::from).collect();
+    let wanted: Vec<Wanted> = channels.iter().map(|channel| Wanted::of(&run.model, channel)).collect();
     let pairs = pairs(&test, &wanted, request.map, request.seat, &mut remarks.notes)?;
     let sha256 = [run.sha256.clone(), test.sha256];
     if pairs.is_empty() {
