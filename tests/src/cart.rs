@@ -8,7 +8,7 @@ use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
-use occupant_core::model::setup::{Integrator, OutputOptions, Setup, TimeSpan};
+use occupant_core::model::setup::{Allowance, Integrator, OutputOptions, Setup, TimeSpan};
 use occupant_core::vehicle::{
     PulseDefinition, PulsePath, PulseShape, Strength, TravelDirection, VehiclePath, VehiclePose,
 };
@@ -47,7 +47,13 @@ pub fn lap(integrator: Integrator) -> Setup {
         path: path(),
         posture: InitialPosture::Seated(seating()),
         velocity: InitialVelocity::WithVehicle,
-        time: TimeSpan { start_s: 0.0, end_s: 0.2, output_s: 1e-3, stops_at_rest: false },
+        time: TimeSpan {
+            start_s: 0.0,
+            end_s: 0.2,
+            output_s: 1e-3,
+            stops_at_rest: false,
+            allowance: Allowance::default(),
+        },
         integrator,
         output: OutputOptions::default(),
     }

@@ -10,7 +10,7 @@ use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use occupant_core::forces::joint::Joints;
 use occupant_core::forces::spring::BilinearSpring;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity};
-use occupant_core::model::setup::{Integrator, OutputOptions, Setup, TimeSpan};
+use occupant_core::model::setup::{Allowance, Integrator, OutputOptions, Setup, TimeSpan};
 use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
 use occupant_core::vehicle::{FixedPath, VehiclePath, VehiclePose};
 
@@ -123,7 +123,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         path: parked(),
         posture: straight(Vector3::zeros(), Vector3::zeros()),
         velocity: InitialVelocity::WithVehicle,
-        time: TimeSpan { start_s: 0.0, end_s, output_s: end_s, stops_at_rest: false },
+        time: TimeSpan { start_s: 0.0, end_s, output_s: end_s, stops_at_rest: false, allowance: Allowance::default() },
         integrator: Integrator::Rk4 { step_s },
         output: OutputOptions::default(),
     }

@@ -171,3 +171,84 @@ fn loads_of_the_upper_neck_are_those_at_the_condyles_and_follow_from_the_head_al
     assert_below("loads of the upper neck, N and N·m", worst, 1e-8);
     assert!(greatest > 50.0, "{greatest}");
 }
+
+/// A sled with feet on the floor.
+const WITH_FEET: &str = include_str!("../../scenarios/sled-17-segments.toml");
+
+/// Loads at the sites of a shank that nothing touches, by Newton's and Euler's laws of the piece between them: what the rest of the
+/// leg does not account for is the inertia of the shank less that of its two ends, a quarter of the mass each.
+#[test]
+fn the_piece_between_the_sites_of_a_shank_obeys_newton_and_euler() {
+    let model = Model::new(setup(WITH_FEET, &[])).unwrap();
+    let legs = model.body().tree.landmarks().legs;
+    let (mut seen, mut greatest, mut off) = (0, [0.0_f64; 2], [0.0_f64; 2]);
+    for (side, leg) in [("right", legs.right), ("left", legs.left)] {
+        let (shank, foot) = (leg.unwrap().lower.index(), leg.unwrap().end.unwrap().index());
+        let channel = |site: &str, what: &str| {
+            let name = |axis| format!("{side}_tibia.{site}.{what}.{axis}");
+            ["x", "y", "z"].map(|axis| find(&model, &name(axis)).unwrap())
+        };
+        let all = [("upper", "force"), ("upper", "moment"), ("lower", "force"), ("lower", "moment")];
+        let all = all.map(|(site, what)| channel(site, what));
+        let watched = Watch(|s: &Sample<'_>| {
+            let (k, a) = (&s.evaluation.kinematics, &s.evaluation.accelerations);
+            let skeleton = &s.model.system().skeleton;
+            if s.evaluation.wrench[shank].force.to_vector().norm() > 0.0 {
+                return;
+            }
+            let axes = k.axes[shank].to_matrix();
+            let [upper_force, upper_moment, lower_force, lower_moment] = all.each_ref().map(|vector| {
+                let told = Vector3::from(vector.each_ref().map(|c| c.value(s)));
+                axes * Vector3::new(told.x, -told.y, -told.z)
+            });
+            let [knee, ankle] = [shank, foot].map(|n| k.joint[n].to_vector());
+            let along = |share: f64| knee + (ankle - knee) * share;
+            let (alpha, omega) = (a.alpha[shank].to_vector(), k.omega[shank].to_vector());
+            let felt = |place: Vector3<f64>| {
+                let r = place - knee;
+                let up = Vector3::new(0.0, 0.0, skeleton.gravity);
+                a.joint[shank].to_vector() + alpha.cross(&r) + omega.cross(&omega.cross(&r)) + up
+            };
+            let segment = s.model.body().segment(leg.unwrap().lower);
+            let cg = knee + axes * skeleton.links[shank].cg.to_vector();
+            let ends = [0.125, 0.875].map(|share| (along(share), felt(along(share)) * (0.25 * segment.mass_kg)));
+            let whole = felt(cg) * segment.mass_kg;
+            let inertia = axes * nalgebra::Matrix3::from_diagonal(&segment.inertia_kg_m2) * axes.transpose();
+            let spin = inertia * alpha + omega.cross(&(inertia * omega));
+            let about = |place: Vector3<f64>, force: Vector3<f64>| (place - along(0.25)).cross(&force);
+            let force = whole - ends[0].1 - ends[1].1;
+            let moment = about(cg, whole) + spin - about(ends[0].0, ends[0].1) - about(ends[1].0, ends[1].1);
+            let found = lower_force - upper_force;
+            let turned = lower_moment - upper_moment + about(along(0.75), lower_force);
+            off = [off[0].max((found - force).norm()), off[1].max((turned - moment).norm())];
+            greatest = [greatest[0].max(lower_force.norm()), greatest[1].max(upper_moment.norm())];
+            seen += 1;
+        });
+        simulate(&model, watched).unwrap();
+    }
+    assert!(seen > 100, "{seen}");
+    assert!(greatest[0] > 500.0 && greatest[1] > 20.0, "{greatest:?}");
+    assert_below("force, N", off[0], 1e-8);
+    assert_below("moment, N*m", off[1], 1e-8);
+}
+
+const DRIVER: &str = include_str!("../../scenarios/templates/right-hand-drive.toml");
+
+/// What the toe pan pushes along the shank compresses it, but for the inertia of the foot.
+#[test]
+fn feet_that_are_pressed_against_the_floor_compress_the_shanks() {
+    let model = Model::new(setup(DRIVER, &["time.end=100 ms"])).unwrap();
+    let axial = find(&model, "right_tibia.lower.force.z").unwrap();
+    let foot = model.body().tree.landmarks().legs.right.unwrap().end.unwrap();
+    let mut least = (0.0_f64, 0.0);
+    let watched = Watch(|s: &Sample<'_>| {
+        let n = foot.index();
+        let along = s.evaluation.kinematics.axes[model.body().tree.landmarks().legs.right.unwrap().lower.index()];
+        let push = along.to_matrix().column(2).dot(&s.evaluation.wrench[n].force.to_vector());
+        if axial.value(s) < least.0 {
+            least = (axial.value(s), push);
+        }
+    });
+    simulate(&model, watched).unwrap();
+    assert!(least.0 < -300.0 && (least.1 / -least.0 - 1.0).abs() < 0.5, "{least:?}");
+}

@@ -11,6 +11,7 @@ use occupant_core::results::checkpoint::{Checkpoint, CheckpointError};
 use occupant_core::results::outcome::{Outcome, ResumeError, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::{replay, resume, simulate};
 use occupant_scenario::{Format, Scenario};
 use occupant_tests::cart::lap;
@@ -247,6 +248,36 @@ fn a_checkpoint_of_an_older_version_goes_on() {
     from.state.pop();
     let misfit = Misfit::Count { of: "numbers of the state", found: 74, expected: 79 };
     assert_eq!(Checkpoint::state_of(&model, &from.state).err(), Some(CheckpointError::Memory(misfit)));
+}
+
+/// The loads of the legs that files of an older version lack, 12 numbers at the end of each reading, are left out of their measures.
+#[test]
+fn a_file_without_the_loads_of_legs_has_all_other_measures() {
+    const LEGS: usize = 12;
+    let (model, whole, _) = run(&seventeen(RK4));
+    let measures = |checkpoints: &[Checkpoint]| {
+        let mut summarizer = Summarizer::new();
+        summarizer.begin(&model).unwrap();
+        checkpoints.iter().for_each(|checkpoint| replay(&model, checkpoint, &mut summarizer).unwrap());
+        let summary = summarizer.summary(None).unwrap();
+        let all = summary.measures.into_iter().map(|m| (m.name, m.value.map(f64::to_bits)));
+        all.collect::<Vec<_>>()
+    };
+    let each = whole.checkpoints[0].readings_before.len() - 2;
+    let mut older = whole.checkpoints.clone();
+    for checkpoint in &mut older {
+        checkpoint.readings_before.truncate(2 + each - LEGS);
+        let readings = checkpoint.readings.chunks_exact(each).flat_map(|own| &own[..each - LEGS]).copied();
+        checkpoint.readings = readings.collect();
+    }
+    let now = measures(&whole.checkpoints);
+    let of_legs = |(name, _): &(&str, Option<u64>)| name.contains("tibia");
+    assert_eq!(now.iter().filter(|m| of_legs(m)).count(), 4);
+    let others: Vec<_> = now.into_iter().filter(|m| !of_legs(m)).collect();
+    assert_eq!(measures(&older), others);
+    let mut rest = Outputs::default();
+    resume(&model, &older[100], &mut rest).unwrap();
+    assert_eq!(rest.checkpoints[3].state, whole.checkpoints[103].state);
 }
 
 /// The proofs above mean something only if there is history to lose.

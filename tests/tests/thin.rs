@@ -9,7 +9,7 @@ use occupant_core::forces::joint::Joints;
 use occupant_core::forces::spring::BilinearSpring;
 use occupant_core::model::Model;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
-use occupant_core::model::setup::{Integrator, LOOSE, Setup, TimeSpan};
+use occupant_core::model::setup::{Allowance, Integrator, LOOSE, Setup, TimeSpan};
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
@@ -65,7 +65,8 @@ impl Throw {
         setup.integrator = integrator;
         // until it is as far away again
         let end_s = self.contact_s() + 2.0 * self.before_m / along;
-        setup.time = TimeSpan { start_s: 0.0, end_s, output_s: end_s, stops_at_rest: false };
+        setup.time =
+            TimeSpan { start_s: 0.0, end_s, output_s: end_s, stops_at_rest: false, allowance: Allowance::default() };
         setup
     }
 

@@ -3,6 +3,7 @@
 mod damaged;
 mod interrupted;
 mod kept;
+mod limits;
 mod refused;
 mod shards;
 mod table;

@@ -13,7 +13,7 @@ use crate::motion::vector::{V3, v3};
 use nalgebra::Vector3;
 
 /// Count of numbers in a reading.
-pub(crate) const READINGS: usize = SIDE + SIDE_SIGNALS;
+pub(crate) const READINGS: usize = TIBIAE + TIBIA_SITES * TIBIA_NUMBERS;
 /// Index of the neck's force in a reading, followed by its moment.
 pub(crate) const NECK: usize = 15;
 /// Index of the femurs, right and left.
@@ -31,6 +31,15 @@ pub(crate) const REAR: usize = CHEST + CHEST_POINTS;
 pub(crate) const SIDE: usize = REAR + 3;
 /// Count of those values.
 pub(crate) const SIDE_SIGNALS: usize = 7;
+/// Index of the loads of the lower legs: force and moment at each site.
+pub(crate) const TIBIAE: usize = SIDE + SIDE_SIGNALS;
+/// Sites: the upper and the lower one of the right leg, then of the left one.
+pub(crate) const TIBIA_SITES: usize = 4;
+/// Count of numbers at a site.
+pub(crate) const TIBIA_NUMBERS: usize = 6;
+/// Distance of a site from the joint next to it, as a share of the way from knee to ankle: our choice, because load cells of
+/// dummies have places of their own.
+const TIBIA_SHARE: f64 = 0.25;
 /// Number of chest points.
 pub(crate) const CHEST_POINTS: usize = 1 + POINTS.len();
 /// Points of a chest besides the sternum, by their names in bodies.
@@ -39,7 +48,8 @@ const POINTS: [&str; 4] = ["upper_left", "upper_right", "lower_left", "lower_rig
 /// What the instruments of one body read at one instant, SI. In SAE J211 axes of the segments: what accelerometers of head,
 /// chest and pelvis read, angular velocity and acceleration of the head, force and moment of the neck on the head at the
 /// condyles; tension of the right and the left femur; then the centre of the head's sphere in axes of the body's home, and the
-/// deflections of a chest, m; then the values for rear and side impact. NaN for what a body lacks.
+/// deflections of a chest, m; then the values for rear and side impact; then the loads of the lower legs. NaN for what a body
+/// lacks.
 pub(crate) type Reading<S> = [S; READINGS];
 
 /// Instruments of a body.
@@ -92,6 +102,15 @@ struct Leg {
     /// Index among the knees of all bodies.
     knee: usize,
     shanks: Vec<Beyond>,
+    tibia: Option<Tibia>,
+}
+
+/// A lower leg with a foot of its own.
+#[derive(Clone, Debug, PartialEq)]
+struct Tibia {
+    shank: usize,
+    knee: Beyond,
+    ankle: Beyond,
 }
 
 /// A joint and all that is distal to it.
@@ -144,10 +163,15 @@ impl Instruments<f64> {
         let all = marks.instruments().map(|segment| segment.map(Segment::index));
         let carried = |n: &usize| layout.parent(*n);
         let above_t1 = std::iter::successors(all[0], carried).find(|n| all[1].is_some() && layout.parent(*n) == all[1]);
+        let joints = || tree.joints().map(|joint| &tree[joint]);
+        let between = |proximal, distal| joints().find(|row| row.proximal == proximal && row.distal == distal);
         let leg = |(side, limb): (usize, Option<Limb>)| {
-            let thigh = limb?.upper;
-            let knees = tree.joints().map(|joint| &tree[joint]).filter(|row| row.proximal == thigh);
-            Some(Leg { thigh: thigh.index(), knee: 2 * of + side, shanks: knees.map(beyond).collect() })
+            let Limb { upper: thigh, lower, end } = limb?;
+            let knees = joints().filter(|row| row.proximal == thigh);
+            let ends = between(thigh, lower).zip(end.and_then(|foot| between(lower, foot)));
+            let tibia =
+                ends.map(|(knee, ankle)| Tibia { shank: lower.index(), knee: beyond(knee), ankle: beyond(ankle) });
+            Some(Leg { thigh: thigh.index(), knee: 2 * of + side, shanks: knees.map(beyond).collect(), tibia })
         };
         let chest = body.chests.iter().find(|chest| chest.of == row.name);
         let shares = |point: &str| Some(&chest?.points.iter().find(|(name, _)| name == point)?.1);
@@ -275,15 +299,40 @@ impl<S: Scalar> Instruments<S> {
             sides.read(system, from, &mut reading);
         }
         for (i, leg) in self.legs.iter().enumerate() {
-            let Some(Leg { thigh, knee, shanks }) = leg else { continue };
+            let Some(Leg { thigh, knee, shanks, tibia }) = leg else { continue };
             let mut along = from.knees[*knee];
             for shank in shanks {
                 along -= shank.load(from).0;
             }
             // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
             reading[FEMURS + i] = -along.dot(k.axes[*thigh].z);
+            if let Some(tibia) = tibia {
+                tibia.read(i, from, &mut reading);
+            }
         }
         reading
+    }
+}
+
+impl Tibia {
+    /// Loads at the upper and the lower site: what the leg below it exerts on the leg above it, axes of the shank.
+    #[inline(always)]
+    fn read<S: Scalar>(&self, leg: usize, from: &Carried<'_, S>, reading: &mut Reading<S>) {
+        let (k, skeleton) = (from.k, from.skeleton);
+        let [knee, ankle] = [k.joint[self.knee.segment], k.joint[self.ankle.segment]];
+        let down = (ankle - knee) * S::of(TIBIA_SHARE);
+        let up = v3(S::zero(), S::zero(), skeleton.gravity);
+        for (i, (joint, end, way)) in [(&self.knee, knee, down), (&self.ankle, ankle, -down)].into_iter().enumerate() {
+            let (force, moment) = joint.load(from);
+            // the piece of the shank between joint and site, with its share of a mass spread evenly along it
+            let middle = way * S::of(0.5);
+            let felt = from.accelerations.at(k, self.shank, end + middle - k.joint[self.shank]) + up;
+            let sign = if i == 0 { 1.0 } else { -1.0 };
+            let own = felt * (skeleton.links[self.shank].mass * S::of(sign * TIBIA_SHARE));
+            let at = TIBIAE + TIBIA_NUMBERS * (2 * leg + i);
+            put(reading, at, told(k, self.shank, own - force));
+            put(reading, at + 3, told(k, self.shank, way.cross(force) - moment - middle.cross(own)));
+        }
     }
 }
 

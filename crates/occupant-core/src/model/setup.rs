@@ -48,6 +48,24 @@ pub struct TimeSpan {
     pub output_s: f64,
     /// Whether the run ends early when all bodies have come to rest in space.
     pub stops_at_rest: bool,
+    /// Work after which the run is given up.
+    pub allowance: Allowance,
+}
+
+/// Work that a run may cost; beyond it, it ends as failed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Allowance {
+    /// Evaluations of the derivative.
+    pub evaluations: u64,
+    /// Wall time since its start, s. Whether a run ends by it depends on the machine; infinite by default.
+    pub wall_time_s: f64,
+}
+
+impl Default for Allowance {
+    /// No limit.
+    fn default() -> Self {
+        Allowance { evaluations: u64::MAX, wall_time_s: f64::INFINITY }
+    }
 }
 
 impl TimeSpan {
@@ -487,7 +505,13 @@ impl SetupBuilder {
             members: Vec::new(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),
             velocity: InitialVelocity::default(),
-            time: TimeSpan { start_s: 0.0, end_s: 0.0, output_s: DEFAULT_OUTPUT_S, stops_at_rest: false },
+            time: TimeSpan {
+                start_s: 0.0,
+                end_s: 0.0,
+                output_s: DEFAULT_OUTPUT_S,
+                stops_at_rest: false,
+                allowance: Allowance::default(),
+            },
             integrator: Integrator::default(),
             output: OutputOptions::default(),
         };

@@ -246,7 +246,9 @@ impl Checkpoint {
         let before = "the latest step: number of the next of the readings, its time, what instruments read there";
         let readings = "what instruments read since the output before, at equal times from the start of the run: of each body with \
                         any, in SAE J211 axes, accelerations of head, chest and pelvis (m/s²), angular velocity and acceleration of the \
-                        head, force (N) and moment (N·m) of the neck, tension of the right and left femur (N)";
+                        head, force (N) and moment (N·m) of the neck, tension of the right and left femur (N); then what only some \
+                        bodies and tests have: deflections of the chest, readings for side impact, loads of the lower legs, readings for \
+                        rear impact";
         self.peaks = file.numbers(words(61, "greatest", peaks), std::mem::take(&mut self.peaks));
         let own = std::mem::take(&mut self.readings_before);
         self.readings_before = file.numbers(words(62, "readings_before", before), own);

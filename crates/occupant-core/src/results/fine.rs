@@ -4,7 +4,9 @@
 //! between. Values at steps have the precision of an `f32`, in a run as in its file; values at outputs, from which
 //! derivatives are made, have full precision.
 
-use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, REAR, Reading, SIDE, SIDE_SIGNALS};
+use crate::kernel::instruments::{
+    CHEST, CHEST_POINTS, PLACE, REAR, Reading, SIDE, SIDE_SIGNALS, TIBIA_NUMBERS, TIBIA_SITES, TIBIAE,
+};
 use crate::model::Model;
 use crate::model::behind::restraints;
 use crate::model::setup::Integrator;
@@ -15,8 +17,15 @@ use crate::results::sample::Sample;
 pub const READINGS_S: f64 = 1e-4;
 
 /// Count of numbers of one body in a sample: a reading without the head's position; then, if any body has a deformable
-/// chest, its deflections; if any has sides that yield, [`SIDE_SIGNALS`]; then, in a rear impact, [`REAR_SIGNALS`].
+/// chest, its deflections; if any has sides that yield, [`SIDE_SIGNALS`]; if any has feet of its own, [`LEG_SIGNALS`]; then, in a
+/// rear impact, [`REAR_SIGNALS`].
 pub(crate) const SIGNALS: usize = PLACE;
+
+/// Signals of the lower legs: at each site those of [`LEG_LOADS`].
+pub(crate) const LEG_SIGNALS: usize = TIBIA_SITES * LEG_LOADS.len();
+
+/// Numbers of a site that are kept: moments about X and Y, force along Z.
+const LEG_LOADS: [usize; 3] = [3, 4, 2];
 
 /// Signals for rear impact: of T1, of the head restraint, of the head's speed and of the pelvis' position.
 pub(crate) const REAR_SIGNALS: usize = 4;
@@ -32,8 +41,10 @@ pub struct Fine {
     pub(crate) bodies: Vec<usize>,
     /// Count of numbers of each body in a sample.
     each: usize,
-    /// Count of those for side impact, before those for rear impact.
+    /// Count of those for side impact, before those of the legs.
     side: usize,
+    /// Count of those of the lower legs, before those for rear impact; none in the file of an older program.
+    legs: usize,
     /// Count of those for rear impact.
     pub(crate) rear: usize,
     /// Index of the next sample.
@@ -59,7 +70,9 @@ impl Fine {
         let rear = if restraints(model.setup()).is_empty() { 0 } else { REAR_SIGNALS };
         let chest = if model.body().chests.is_empty() { 0 } else { CHEST_POINTS };
         let side = if model.body().sides.is_empty() { 0 } else { SIDE_SIGNALS };
-        let each = SIGNALS + chest + side + rear;
+        let feet = model.body().tree.bodies().into_iter().flat_map(|row| row.landmarks.legs());
+        let legs = if feet.clone().any(|leg| leg.end.is_some()) { LEG_SIGNALS } else { 0 };
+        let each = SIGNALS + chest + side + legs + rear;
         let count = each * bodies.len();
         let time = &model.setup().time;
         let interval_s = interval_s(model);
@@ -71,6 +84,7 @@ impl Fine {
             bodies,
             each,
             side,
+            legs,
             rear,
             next: 0,
             before_s: f64::NAN,
@@ -99,10 +113,16 @@ impl Fine {
         for ((to, before), &of) in self.now.chunks_exact_mut(self.each.max(1)).zip(before).zip(&self.bodies) {
             let (own, more) = to.split_at_mut(SIGNALS);
             let (more, rear) = more.split_at_mut(more.len() - self.rear);
+            let (more, legs) = more.split_at_mut(more.len() - self.legs);
             let (chest, side) = more.split_at_mut(more.len() - self.side);
             own.copy_from_slice(&readings[of][..SIGNALS]);
             chest.copy_from_slice(&readings[of][CHEST..][..chest.len()]);
             side.copy_from_slice(&readings[of][SIDE..][..side.len()]);
+            for (site, loads) in legs.chunks_exact_mut(LEG_LOADS.len()).enumerate() {
+                for (load, number) in loads.iter_mut().zip(LEG_LOADS) {
+                    *load = readings[of][TIBIAE + TIBIA_NUMBERS * site + number];
+                }
+            }
             if let [t1, force, speed, place] = rear {
                 [*t1, *speed, *place] = [readings[of][REAR], readings[of][REAR + 1], readings[of][REAR + 2]];
                 *force = held.get(of).copied().unwrap_or(before[self.each - self.rear + 1]);
@@ -136,6 +156,14 @@ impl Fine {
         }
     }
 
+    /// Leaves out the loads of the lower legs, which the file of an older program lacks.
+    fn forget_legs(&mut self) {
+        self.each -= self.legs;
+        self.legs = 0;
+        let count = self.each * self.bodies.len();
+        (self.before, self.now) = (vec![f64::NAN; count], vec![f64::NAN; count]);
+    }
+
     /// Clears the samples after an output.
     pub(crate) fn clear(&mut self) {
         self.samples.clear();
@@ -144,7 +172,9 @@ impl Fine {
     /// Copies `other`, of the same run, without allocation if the space suffices.
     pub(crate) fn take_over(&mut self, other: &Fine) {
         (self.interval_s, self.next, self.before_s) = (other.interval_s, other.next, other.before_s);
+        (self.each, self.legs) = (other.each, other.legs);
         self.before.clone_from(&other.before);
+        self.now.clone_from(&other.now);
         self.samples.clone_from(&other.samples);
     }
 
@@ -165,7 +195,12 @@ impl Fine {
 
     /// Part of a body's sample for side impact.
     pub(crate) fn side_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
-        &sample[self.each - self.rear - self.side..self.each - self.rear]
+        &sample[..self.each - self.rear - self.legs][self.each - self.rear - self.legs - self.side..]
+    }
+
+    /// Part of a body's sample with the loads of the lower legs.
+    pub(crate) fn legs_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
+        &sample[self.each - self.rear - self.legs..self.each - self.rear]
     }
 
     /// Index and readings of the samples since the last output, of a body among those read.
@@ -196,6 +231,9 @@ impl Fine {
     /// Sets the state from plain numbers; false if they are of another run.
     pub(crate) fn read(&mut self, numbers: &[f64], samples: &[f32]) -> bool {
         let [next, before_s, before @ ..] = numbers else { return false };
+        if before.len() + self.legs * self.bodies.len() == self.before.len() {
+            self.forget_legs();
+        }
         let fits = before.len() == self.before.len() && samples.len().is_multiple_of(self.before.len().max(1));
         if fits && *next >= 1.0 {
             (self.next, self.before_s) = (*next as usize, *before_s);

@@ -84,6 +84,28 @@ pub enum StepError {
         /// Element and residual, as text.
         why: String,
     },
+    /// It would cost more evaluations than it may.
+    #[error(
+        "at t = {time_s:.6} s the run has cost {evaluations} evaluations, more than `time.max_evaluations` permits ({most}); look for values that are too stiff or too strongly damped"
+    )]
+    TooManyEvaluations {
+        /// Time, s.
+        time_s: f64,
+        /// Evaluations so far.
+        evaluations: u64,
+        /// Those permitted.
+        most: u64,
+    },
+    /// It takes longer than it may.
+    #[error(
+        "at t = {time_s:.6} s the run has taken longer than `time.max_wall_time` permits ({most_s} s); look for values that are too stiff or too strongly damped"
+    )]
+    TookTooLong {
+        /// Time of the run, s.
+        time_s: f64,
+        /// Wall time permitted, s.
+        most_s: f64,
+    },
     /// The error control asks for a step below the smallest allowed.
     #[error(
         "at t = {time_s:.6} s the error control needs a step of {step_s:.3e} s, below the minimum of {min_step_s:.3e} s (error {error:.2} times the tolerance); try a looser tolerance or a smaller `min_step`"

@@ -149,6 +149,7 @@ impl Course {
     /// Sets `step` as the trial: the proposal, or the part of it in which no contact is missed.
     pub(super) fn shorten(&self, front: &mut Front, step: Step, control: &Control) -> Result<Step, StepError> {
         let Some(pending) = &mut front.pending else { return Ok(step) };
+        self.refuse_beyond_allowance(step.start_s)?;
         pending.step = step;
         if step.length_s() <= 0.0 {
             // the clock no longer tells the step's ends apart

@@ -3,6 +3,8 @@
 //! The model is separate and immutable: every call receives the model for which the course was made. [`super::Run`]
 //! keeps both together; runs in lanes keep their own models.
 
+use std::time::Instant;
+
 use super::adaptive::{Control, Memory as Wanted};
 use super::{Front, Rear, Step, Stretch, Switches};
 
@@ -10,7 +12,7 @@ use crate::forces::{Actions, History, Memory};
 use crate::kernel::carried::Carried;
 use crate::kernel::{Evaluation, Scratch, Situation};
 use crate::model::Model;
-use crate::model::setup::Integrator;
+use crate::model::setup::{Allowance, Integrator};
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_BODIES;
@@ -44,6 +46,9 @@ pub(crate) struct Course {
     /// Values at the latest output.
     pub(super) now: Peaks,
     pub(crate) effort: Effort,
+    allowance: Allowance,
+    /// Wall time of its start, if that time is limited.
+    started: Option<Instant>,
     /// Integration under error control; none with a fixed step.
     pub(super) front: Option<Box<Front>>,
     /// With a fixed step, the start of the latest, if any element of the model can switch.
@@ -73,7 +78,7 @@ impl Course {
     pub fn new(model: &Model) -> Self {
         let start = model.start();
         let (integrator, time_s) = (&model.setup().integrator, model.setup().time.start_s);
-        let skeleton = &model.system().skeleton;
+        let (skeleton, allowance) = (&model.system().skeleton, model.setup().time.allowance);
         Course {
             index: 0,
             time_s,
@@ -81,6 +86,8 @@ impl Course {
             history: start.history.clone(),
             cursor: PathCursor::default(),
             effort: Effort::default(),
+            allowance,
+            started: allowance.wall_time_s.is_finite().then(Instant::now),
             front: match integrator {
                 Integrator::Rk4 { .. } => None,
                 Integrator::Adaptive { .. } => {
@@ -337,12 +344,34 @@ impl Course {
 
     /// Takes the state after a step, if it is finite.
     pub(crate) fn accept(&mut self, model: &Model, next: State<f64>, step: Step) -> Result<(), StepError> {
+        self.refuse_beyond_allowance(step.start_s)?;
         if !next.is_finite() {
             return Err(broken(model, &self.history.memory, step, &next));
         }
         self.state = next;
         self.accept_time(step);
         Ok(())
+    }
+
+    /// Whether the work so far is permitted.
+    #[inline]
+    pub(super) fn is_within_allowance(&self) -> bool {
+        self.effort.evaluations <= self.allowance.evaluations && !self.took_too_long()
+    }
+
+    fn took_too_long(&self) -> bool {
+        self.started.is_some_and(|started| started.elapsed().as_secs_f64() > self.allowance.wall_time_s)
+    }
+
+    /// Refuses work beyond what is permitted, at `time_s`.
+    pub(super) fn refuse_beyond_allowance(&self, time_s: f64) -> Result<(), StepError> {
+        let (Effort { evaluations, .. }, Allowance { evaluations: most, wall_time_s: most_s }) =
+            (self.effort, self.allowance);
+        match () {
+            () if self.is_within_allowance() => Ok(()),
+            () if evaluations > most => Err(StepError::TooManyEvaluations { time_s, evaluations, most }),
+            () => Err(StepError::TookTooLong { time_s, most_s }),
+        }
     }
 
     /// Counts an accepted step whose state is stored elsewhere.

@@ -61,7 +61,7 @@ impl Filter {
 }
 
 /// The class of a channel's quantity, as crash test programs apply SAE J211: head 1000, chest 180, pelvis 1000, neck and
-/// femurs 600, belts and vehicle acceleration 60, angular velocity of the head 60, of each occupant. It gives none to what no transducer of a
+/// femurs and tibiae 600, belts and vehicle acceleration 60, angular velocity of the head 60, of each occupant. It gives none to what no transducer of a
 /// dummy measures (contact forces, joint loads, angles, energies); pelvis, belts and vehicle are common practice and not
 /// read in the standard.
 fn j211_class(channel: &str) -> Option<ChannelClass> {
@@ -72,6 +72,7 @@ fn j211_class(channel: &str) -> Option<ChannelClass> {
         [.., "upper_torso" | "middle_torso", "acceleration", _] => Some(Cfc180),
         [.., "neck", "force" | "moment", _] => Some(Cfc600),
         [.., "right_femur" | "left_femur", "axial"] => Some(Cfc600),
+        [.., "right_tibia" | "left_tibia", _, "force" | "moment", _] => Some(Cfc600),
         ["belt" | "strap", .., "force"] | ["vehicle", .., "acceleration", _] => Some(Cfc60),
         [.., "head", "angular_velocity", _] => Some(Cfc60),
         _ => None,
@@ -116,6 +117,7 @@ mod tests {
         assert_eq!(class("belt.lap.force"), Some(ChannelClass::Cfc60));
         assert_eq!(class("strap.driver.belt.d_ring_shoulder.force"), Some(ChannelClass::Cfc60));
         assert_eq!(class("left_femur.axial"), Some(ChannelClass::Cfc600));
+        assert_eq!(class("passenger.left_tibia.upper.moment.y"), Some(ChannelClass::Cfc600));
         assert_eq!(class("passenger.upper_torso.acceleration.x"), Some(ChannelClass::Cfc180));
         assert_eq!(class("vehicle.acceleration.x"), class("vehicle.other.acceleration.x"));
         assert_eq!(class("vehicle.other.acceleration.x"), Some(ChannelClass::Cfc60));

@@ -11,7 +11,7 @@ use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Length, Ratio, Scenario, Speed, Time};
 use occupant_core::body::Body;
 use occupant_core::model::accuracy::Accuracy;
-use occupant_core::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
+use occupant_core::model::setup::{Allowance, DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
 use placed_text::number;
 
 /// Start and end of the run.
@@ -25,6 +25,13 @@ pub(crate) struct TimeSection {
     /// True: the run ends early, once every body has had less than 1e-4 of its peak kinetic energy (in space) for 0.2
     /// s. False if absent.
     pub(crate) stop_at_rest: Option<bool>,
+    /// Largest number of evaluations of the equations of motion; a run that needs more ends as failed. No limit if absent. In a
+    /// study it keeps single samples from holding up the others.
+    #[schemars(extend("minimum" = 1))]
+    pub(crate) max_evaluations: Option<u64>,
+    /// Longest wall time of the run, after which it ends as failed. Which runs it ends depends on the machine; `max_evaluations`
+    /// does not. No limit if absent.
+    pub(crate) max_wall_time: Option<Time<POSITIVE>>,
 }
 
 /// Recorded outputs.
@@ -92,6 +99,10 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
         end_s: s.time.end.si(),
         output_s: s.output.as_ref().map_or(DEFAULT_OUTPUT_S, |o| si_or(&o.interval, DEFAULT_OUTPUT_S)),
         stops_at_rest: s.time.stop_at_rest.unwrap_or(false),
+        allowance: Allowance {
+            evaluations: s.time.max_evaluations.unwrap_or(u64::MAX),
+            wall_time_s: si_or(&s.time.max_wall_time, f64::INFINITY),
+        },
     };
     if span.end_s <= span.start_s {
         let found = format!("a run from {} s to {} s", number(span.start_s), number(span.end_s));

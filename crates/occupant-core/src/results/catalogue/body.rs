@@ -75,7 +75,9 @@ type Instrument = Quantity<OfBody>;
 /// Message `Instruments`: readings of a dummy's load cells.
 pub(super) fn of_dummy(marks: &Landmarks) -> impl Iterator<Item = Instrument> {
     let femurs = marks.legs.right.map(|_| RIGHT_FEMUR).into_iter().chain(marks.legs.left.map(|_| LEFT_FEMUR));
-    marks.neck.map(|_| NECK).into_iter().flatten().chain(femurs)
+    let legs = [(marks.legs.right, RIGHT_TIBIA), (marks.legs.left, LEFT_TIBIA)].into_iter();
+    let tibiae = legs.filter(|(leg, _)| leg.is_some_and(|leg| leg.end.is_some())).flat_map(|(_, own)| own);
+    marks.neck.map(|_| NECK).into_iter().flatten().chain(femurs).chain(tibiae)
 }
 
 /// Message `MountLoad`, of a body on a mount.
@@ -129,6 +131,58 @@ const RIGHT_FEMUR: Instrument = Instrument::number(Newton, |s| s.readings[s.of][
 const LEFT_FEMUR: Instrument = Instrument::number(Newton, |s| s.readings[s.of][instruments::FEMURS + 1])
     .channel("left_femur.axial", FEMUR)
     .field(5, "left_femur_axial", "axial force at the knee end of the left thigh, tension positive");
+
+const RIGHT_TIBIA: [Instrument; 4] = [
+    tibia_force(|s| tibia(s, 0)).channel("right_tibia.upper.force", UPPER).field(6, "right_tibia_upper_force", UPPER),
+    tibia_moment(|s| tibia_turn(s, 0)).channel("right_tibia.upper.moment", TURN).field(
+        7,
+        "right_tibia_upper_moment",
+        TURN,
+    ),
+    tibia_force(|s| tibia(s, 1)).channel("right_tibia.lower.force", LOWER).field(8, "right_tibia_lower_force", LOWER),
+    tibia_moment(|s| tibia_turn(s, 1)).channel("right_tibia.lower.moment", TURN).field(
+        9,
+        "right_tibia_lower_moment",
+        TURN,
+    ),
+];
+const LEFT_TIBIA: [Instrument; 4] = [
+    tibia_force(|s| tibia(s, 2)).channel("left_tibia.upper.force", UPPER).field(10, "left_tibia_upper_force", UPPER),
+    tibia_moment(|s| tibia_turn(s, 2)).channel("left_tibia.upper.moment", TURN).field(
+        11,
+        "left_tibia_upper_moment",
+        TURN,
+    ),
+    tibia_force(|s| tibia(s, 3)).channel("left_tibia.lower.force", LOWER).field(12, "left_tibia_lower_force", LOWER),
+    tibia_moment(|s| tibia_turn(s, 3)).channel("left_tibia.lower.moment", TURN).field(
+        13,
+        "left_tibia_lower_moment",
+        TURN,
+    ),
+];
+
+const UPPER: &str =
+    "force of the leg below on the leg above, a quarter of the shank below the knee, SAE J211 axes: +z tension";
+const LOWER: &str =
+    "force of the leg below on the leg above, a quarter of the shank above the ankle, SAE J211 axes: +z tension";
+const TURN: &str =
+    "moment of the leg below on the leg above at the place of that force, SAE J211 axes: +y pushes the foot forward";
+
+const fn tibia_force(of: fn(&Sample<'_>) -> Vector3<f64>) -> Instrument {
+    Instrument::vector(Newton, Axes::J211, of)
+}
+
+const fn tibia_moment(of: fn(&Sample<'_>) -> Vector3<f64>) -> Instrument {
+    Instrument::vector(NewtonMetre, Axes::J211, of)
+}
+
+fn tibia(s: &Sample<'_>, site: usize) -> Vector3<f64> {
+    read(s, instruments::TIBIAE + instruments::TIBIA_NUMBERS * site)
+}
+
+fn tibia_turn(s: &Sample<'_>, site: usize) -> Vector3<f64> {
+    read(s, instruments::TIBIAE + instruments::TIBIA_NUMBERS * site + 3)
+}
 
 const FEMUR: &str = "axial force at the knee end of the thigh, tension positive";
 

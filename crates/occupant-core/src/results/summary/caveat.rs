@@ -575,9 +575,9 @@ fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
     } else if Some(segment) == marks.pelvis {
         &["pelvis*"]
     } else if is_of(marks.legs.right) {
-        &["right_femur*"]
+        &["right_femur*", "right_tibia*"]
     } else if is_of(marks.legs.left) {
-        &["left_femur*"]
+        &["left_femur*", "left_tibia*"]
     } else {
         &[]
     };

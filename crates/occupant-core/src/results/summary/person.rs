@@ -1,12 +1,13 @@
 //! Readings of the instruments of one body in a run.
 
 use super::{Acceleration, Accelerations, Excursion, Level, Peak, Person};
+use crate::body::tree::BodyRow;
 use crate::kernel::instruments::SIDE_SIGNALS;
 use crate::model::Model;
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::results::fine::{Fine, REAR_SIGNALS, SIGNALS};
+use crate::results::fine::{Fine, LEG_SIGNALS, REAR_SIGNALS, SIGNALS};
 use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
-use crash_measures::injury::{self, ChestPoint, Options, Readings, Signals, Special};
+use crash_measures::injury::{self, ChestPoint, Options, Readings, Signals, Special, TibiaLoad, TibiaSite};
 use crash_measures::measure::{Peak as Extreme, ThreeMs};
 
 /// Readings of the instruments of one body in a run.
@@ -37,7 +38,7 @@ impl Watched {
                 mass_kg: own().map(|segment| body.segment(segment).mass_kg).sum(),
                 has_head: body.sphere(&head).is_some(),
                 has: row.landmarks.instruments().map(|segment| segment.is_some() && segment != told),
-                signals: begun(model, fine, row.name, row.landmarks.instruments().iter().all(Option::is_some)),
+                signals: begun(model, fine, row),
             }
         };
         fine.bodies.iter().map(watched).collect()
@@ -53,7 +54,8 @@ impl Watched {
                 let is_read = self.has.get(n / 3).is_none_or(|has| *has);
                 values.push(if is_read { *number } else { f64::NAN });
             }
-            let more = [(&SIDE[..], fine.side_of(sample)), (&REAR[..], fine.rear_of(sample))];
+            let legs = (&LEGS[..], fine.legs_of(sample));
+            let more = [(&SIDE[..], fine.side_of(sample)), legs, (&REAR[..], fine.rear_of(sample))];
             let more = more.into_iter().flat_map(|(which, numbers)| which.iter().copied().zip(numbers));
             for (which, number) in CHEST.into_iter().zip(&sample[SIGNALS..]).chain(more) {
                 if let Some(values) = self.signals.special.get_mut(&which) {
@@ -74,6 +76,10 @@ impl Watched {
     ) -> (Person, Signals) {
         let mut whole = self.clone();
         whole.take(place, fine);
+        if !whole.signals.is_empty() {
+            // the file of an older program lacks some
+            whole.signals.special.retain(|_, values| !values.is_empty());
+        }
         let mut own = peaks.felt.get(self.of).copied().unwrap_or([Peak::NONE; FELT]);
         (0..3).filter(|i| !self.has[*i]).for_each(|i| own[i] = Peak::NONE);
         whole.signals.peaks =
@@ -134,7 +140,7 @@ impl Watched {
 /// Samples with space reserved at the start, 100 s at 10 kHz.
 const MOST_ROOM: usize = 1_000_000;
 
-/// Deflections of a chest in the order of a sample, and the signals for side and rear impact.
+/// Deflections of a chest in the order of a sample, and the signals for side impact, of the lower legs, and for rear impact.
 const CHEST: [Special; 5] = [
     Special::ChestDeflection,
     Special::ChestPoint(ChestPoint::ALL[0]),
@@ -151,10 +157,22 @@ const SIDE: [Special; SIDE_SIGNALS] = [
     Special::Pelvis(0),
     Special::Pubic,
 ];
+const LEGS: [Special; LEG_SIGNALS] = {
+    let mut all = [Special::T1; LEG_SIGNALS];
+    let loads = [TibiaLoad::MomentX, TibiaLoad::MomentY, TibiaLoad::ForceZ];
+    let mut i = 0;
+    while i < LEG_SIGNALS {
+        all[i] = Special::Tibia(TibiaSite::ALL[i / loads.len()], loads[i % loads.len()]);
+        i += 1;
+    }
+    all
+};
 const REAR: [Special; REAR_SIGNALS] = [Special::T1, Special::HeadRestraint, Special::HeadSpeed, Special::PelvisPlace];
 
 /// Signals with room for a whole run.
-fn begun(model: &Model, fine: &Fine, name: &str, is_whole: bool) -> Signals {
+fn begun(model: &Model, fine: &Fine, row: &BodyRow) -> Signals {
+    let (name, marks) = (row.name, &row.landmarks);
+    let is_whole = marks.instruments().iter().all(Option::is_some);
     let mut signals = Signals { interval_s: fine.interval_s, ..Signals::new() };
     let room = Fine::most(model).max(model.output_count()).min(MOST_ROOM);
     signals.all_mut().for_each(|values| values.reserve(room));
@@ -177,6 +195,10 @@ fn begun(model: &Model, fine: &Fine, name: &str, is_whole: bool) -> Signals {
         let half_breadth_m = sides.half_breadth_m;
         let is_dummy = sides.preset != "person";
         signals.sides = Some(if is_dummy { injury::Ribs::Dummy } else { injury::Ribs::Person { half_breadth_m } });
+    }
+    for (leg, own) in [marks.legs.right, marks.legs.left].into_iter().zip(LEGS.chunks_exact(LEG_SIGNALS / 2)) {
+        let has_foot = leg.is_some_and(|leg| leg.end.is_some());
+        signals.special.extend(own.iter().filter(|_| has_foot).map(|which| (*which, Vec::with_capacity(room))));
     }
     if fine.rear > 0 && is_whole {
         signals.special.extend(REAR.map(|which| (which, Vec::with_capacity(room))));

@@ -198,7 +198,7 @@ impl<L: Machine> Group<L> {
             let past = &bench.history.memory.contacts;
             place.take_step(|pair| past[pair].phase.lane(i));
         }
-        if finite && !place.is_at_output() {
+        if finite && !place.is_at_output() && place.run.is_within_allowance() {
             place.run.accept_time(place.step);
             place.latest = Some(place.step);
             self.places[i] = Some(place);
@@ -206,6 +206,10 @@ impl<L: Machine> Group<L> {
         }
         let state = self.lane_state(i, &place.run);
         let next = match place.run.accept(&place.model, state, place.step) {
+            Err(error) if finite => {
+                self.fetch_history(i, &mut place.run);
+                Next::ended(Status::Failed(error))
+            }
             Err(_) => {
                 let kept = place.run.history.memory.clone();
                 self.fetch_history(i, &mut place.run);
