@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::{STUDY, answer, damage, done, err, files, folder_with, killed, occupant, rows, spoken};
+use super::{STUDY, answer, done, err, files, folder_with, killed, occupant, rows, spoken};
+use crate::common::damage;
 
 /// A study of which the first samples stay as they are when there are more.
 fn sobol(samples: u64) -> String {
