@@ -9,7 +9,7 @@ use occupant_files::measured::MapArgument;
 use occupant_files::scenario::format_of;
 use occupant_files::table::Cell;
 use occupant_jobs::base::{Failure, Units};
-use occupant_jobs::files::study_folder::{Folder, NamedBy, Role, Row, Shard, Texts};
+use occupant_jobs::files::study_folder::{Block, Folder, NamedBy, Role, Row, Texts};
 use occupant_jobs::fit::fitting::Fitting;
 use occupant_jobs::fit::opening::Given;
 use occupant_jobs::optimise::Optimising;
@@ -306,8 +306,9 @@ impl Study {
                 restart,
                 show: SHOW,
                 units: Units::of_scenario(plan.study.base.units()),
+                block: Block { samples: 0..plan.manifest.samples },
+                wait: false,
                 plan,
-                shard: Shard::WHOLE,
                 keep,
             };
             Ok(sweep.run()?.1)

@@ -3,8 +3,8 @@
 //! It computes nothing and defines no file format; the crates below do.
 //!
 //! Results go to standard output, talk to standard error. Exit codes: 0 done; 1 it ran, and a check failed, the
-//! integration failed or it was interrupted; 2 it could not run (flags, files, the scenario). A reader that closes the pipe
-//! early has what it wanted: that is success.
+//! integration failed or it was interrupted; 2 it could not run (flags, files, the scenario); 75 another process is at the same
+//! work, and the same command succeeds later. A reader that closes the pipe early has what it wanted: that is success.
 
 mod channels;
 mod check;
@@ -50,7 +50,8 @@ use crate::base::{Done, Failure, hear_jobs, progress, say, survive_long_files, w
 #[command(name = "occupant", version, propagate_version = false, max_term_width = 100)]
 #[command(
     after_help = "Start with: occupant new my-case.toml && occupant run my-case.toml\nThen: occupant report my-case.mcap --open\n\n\
-Exit codes: 0 success; 1 a run failed or was interrupted, or a check failed; 2 wrong input, nothing was run."
+Exit codes: 0 success; 1 a run failed or was interrupted, or a check failed; 2 wrong input, nothing was run; \
+75 another process is at the same work."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -161,5 +162,7 @@ fn exit_code(result: Result<Done, Failure>) -> ExitCode {
         Ok(Done::Unwell) => ExitCode::from(1),
         Err(Failure::BrokeOff(message)) => failed(&message, 1),
         Err(Failure::CouldNotRun(message)) => failed(&message, 2),
+        // EX_TEMPFAIL of sysexits.h
+        Err(Failure::Busy(message)) => failed(&message, 75),
     }
 }

@@ -10,6 +10,7 @@ use clap::Subcommand;
 use super::flags::sweep as flags;
 use crate::base::{Done, Failure, UnitsArg, listen, print, program, progress, say};
 use occupant_jobs::files::scenario::warn;
+use occupant_jobs::files::study_folder::block::Block;
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::texts::Texts;
 use occupant_jobs::sweep::job::Sweep;
@@ -20,7 +21,8 @@ use occupant_jobs::sweep::plan::Plan;
 ///
 /// Writes FOLDER/results.parquet: one row per sample with its inputs, all measures and how it ended. A failed sample has a
 /// row with the reason. Run the same command again to resume an interrupted sweep; finished samples are kept. To share a
-/// sweep between machines, give each a part (--shard, or a Slurm job array) and run `occupant sweep merge FOLDER` at the end.
+/// sweep between machines, give each a part (--shard, --range, or a Slurm job array): each writes a table of its own into
+/// FOLDER/parts, and `occupant sweep merge FOLDER` makes one of them at the end.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
@@ -45,6 +47,15 @@ pub(crate) struct Args {
     /// Compute only this part of the study, such as 3/8. If absent, OCCUPANT_SHARD or the Slurm job array decides
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
+
+    /// Compute only these samples, such as 1000..2000 (up to 1999) or 1000-1999, as `occupant sweep status --missing` prints them.
+    /// With --shard, that part of them
+    #[arg(long, value_name = "FROM..TO")]
+    range: Option<String>,
+
+    /// Wait while another process computes the same samples, instead of ending with exit code 75
+    #[arg(long)]
+    wait: bool,
 
     /// Which whole runs to write as runs/NUMBER.mcap: all, none, '3, 17' or 'worst 5 by head.peak'; those of the study if
     /// absent
@@ -84,7 +95,10 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
         (Some(Step::Status(args)), _) => status::status(args).map(|()| Done::Well),
         (None, Some(study)) => {
             let output = args.output.clone().map_or_else(|| flags::folder_of(study), Ok)?;
-            let sweep = open(args, study, &output)?;
+            let Some(sweep) = open(args, study, &output)? else {
+                say("this part of the study has no sample: nothing to do");
+                return Ok(Done::Well);
+            };
             if args.dry_run {
                 return print(&sweep.rehearse()?).map(Into::into);
             }
@@ -97,19 +111,25 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
     }
 }
 
-fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
+/// The sweep; none for a part of the study without samples.
+fn open(args: &Args, study: &Path, output: &Path) -> Result<Option<Sweep>, Failure> {
     let (shard, told_by) = flags::shard(args.shard.as_deref())?;
     let texts = Texts::of_files(study);
     let plan = Plan::open(study, &args.overrides, &texts, program())?;
+    let samples = plan.manifest.samples;
+    let range = flags::range(args.range.as_deref(), samples)?;
+    let block = Block::new(shard.range(&range));
+    let is_whole = block.as_ref().is_some_and(|block| block.is_all_of(samples));
     let keep = kept::chosen(args.keep.as_deref(), &plan)?;
-    if args.restart && !shard.is_whole() {
+    if args.restart && !is_whole {
         return Err(Failure::with_help(
-            "--restart with a shard would remove the results of the others",
-            "remove the folder before you start the first shard",
+            "--restart with a part of the study would remove the results of the others",
+            "remove the folder before you start the first part",
         ));
     }
-    if args.csv && !shard.is_whole() {
-        return Err(Failure::with_help("a shard does not write a table", "give --csv to `occupant sweep merge`"));
+    if args.csv && !is_whole {
+        let found = "a part of the study is not written as CSV";
+        return Err(Failure::with_help(found, "give --csv to `occupant sweep merge`"));
     }
     if !args.quiet {
         warn(&plan.warnings);
@@ -117,8 +137,11 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
             say(&format!("shard {shard}, from {variable}"));
         }
     }
-    Ok(Sweep {
-        csv: args.csv || (plan.study.csv && shard.is_whole()),
+    let Some(block) = block else {
+        return Ok(None);
+    };
+    Ok(Some(Sweep {
+        csv: args.csv || (plan.study.csv && is_whole),
         folder: Folder::at(output),
         engine: args.engine.engine()?,
         kernel: args.engine.kernel.clone(),
@@ -127,7 +150,8 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         show: progress::show(args.quiet),
         units: args.units.or(Some(plan.study.base.units())),
         plan,
-        shard,
+        block,
+        wait: args.wait,
         keep,
-    })
+    }))
 }

@@ -1,16 +1,9 @@
 //! Damage in a finished folder is noticed, said and repaired by computing again.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use super::{STUDY, answer, done, err, folder_with, spoken};
+use super::{STUDY, answer, done, err, files, folder_with, killed, rows, spoken};
 use crate::common::damage;
-
-/// The piece of the journal that stands first.
-fn piece(at: &Path) -> PathBuf {
-    let entries = fs::read_dir(at.join("out/journal")).unwrap().map(|e| e.unwrap().path());
-    entries.filter(|p| p.extension().is_some_and(|e| e == "rows")).min().unwrap()
-}
 
 #[test]
 fn every_damaged_file_of_a_finished_sweep_is_named_and_made_again() {
@@ -39,36 +32,70 @@ fn every_damaged_file_of_a_finished_sweep_is_named_and_made_again() {
         assert_eq!(spoken(at, &words), "");
     }
     let listed = fs::read_to_string(at.join("out/SHA256SUMS")).unwrap();
-    // two tables, their columns, two runs and at least one piece of the journal, each once
-    assert!(listed.lines().count() >= 6 && listed.contains("  runs/000002.mcap\n"), "{listed}");
+    // two tables, their columns and two runs, each once
+    assert!(listed.lines().count() == 5 && listed.contains("  runs/000002.mcap\n"), "{listed}");
 }
 
 #[test]
 fn a_changed_number_in_the_journal_is_not_believed() {
-    let folder = folder_with(&STUDY.replace("samples = 24", "samples = 6"));
+    let folder = folder_with(&STUDY.replace("samples = 24", "samples = 200"));
     let at = folder.path();
     let words = ["sweep", "study.toml", "-o", "out", "--csv", "--quiet"];
-    done(at, &words);
-    let whole = super::rows(at, "out");
-    let digit = |text: &str| {
-        let at = text.rfind("\"wall_time_s\"").unwrap();
-        let cells = text[..at].rfind(|c: char| ('1'..='8').contains(&c)).unwrap();
-        format!("{}9{}", &text[..cells], &text[cells + 1..])
-    };
-    let text = fs::read_to_string(piece(at)).unwrap();
-    fs::write(piece(at), digit(&text)).unwrap();
+    done(at, &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"]);
+    killed(at, &words);
+    let piece = files(&at.join("out/journal"), ".rows").remove(0);
+    let text = fs::read_to_string(&piece).unwrap();
+    let end = text.find("\"wall_time_s\"").unwrap();
+    let digit = text[..end].rfind(|c: char| ('1'..='8').contains(&c)).unwrap();
+    fs::write(&piece, format!("{}9{}", &text[..digit], &text[digit + 1..])).unwrap();
     // who only reads refuses it, and says what mends it
     let report = answer(at, &["study", "report", "out"]);
     assert_eq!(report.status.code(), Some(2));
-    assert!(err(&report).contains(".rows was changed after it was written"), "{}", err(&report));
+    assert!(err(&report).contains(".rows has a row of another sweep in line 2"), "{}", err(&report));
     assert!(err(&report).contains("the same `occupant sweep`"), "{}", err(&report));
-    assert!(spoken(at, &words).contains(".rows was changed after it was written"));
-    assert_eq!(super::rows(at, "out"), whole);
-    // one that cannot be read at all is computed again as well, listed or not
-    fs::remove_file(at.join("out/SHA256SUMS")).unwrap();
-    let text = fs::read_to_string(piece(at)).unwrap();
-    fs::write(piece(at), text.replacen("{\"index\"", "{\"indes\"", 1)).unwrap();
-    assert!(spoken(at, &words).contains(".rows was changed after it was written"));
-    assert_eq!(super::rows(at, "out"), whole);
+    let said = spoken(at, &words);
+    assert!(said.contains(".rows was changed after it was written"), "{said}");
+    assert_eq!(rows(at, "out"), rows(at, "whole"));
+    done(at, &["study", "report", "out"]);
+}
+
+#[test]
+fn a_damaged_part_is_named_by_who_reads_it_and_made_again_by_its_own_command() {
+    let folder = folder_with(STUDY);
+    let at = folder.path();
+    done(at, &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"]);
+    let first = ["sweep", "study.toml", "-o", "out", "--shard", "1/2", "--quiet", "--keep", "5, 2"];
+    done(at, &first);
+    done(at, &["sweep", "study.toml", "-o", "out", "--shard", "2/2", "--quiet"]);
+    let part = at.join("out/parts/000000000-000000011.parquet");
+    for cut in [true, false] {
+        damage(&part, cut);
+        for words in [&["sweep", "merge", "out"][..], &["study", "report", "out"], &["export", "out", "-o", "t.csv"]] {
+            let refused = answer(at, words);
+            assert_eq!(refused.status.code(), Some(2), "{words:?}");
+            let said = err(&refused);
+            assert!(said.contains("000000000-000000011.parquet was changed after it was written"), "{said}");
+        }
+        // the neighbour does not care
+        assert_eq!(spoken(at, &["sweep", "study.toml", "-o", "out", "--shard", "2/2", "--quiet"]), "");
+        let said = spoken(at, &first);
+        assert!(said.starts_with("damaged: ") && said.contains("000000000-000000011.parquet"), "{said}");
+        assert_eq!(spoken(at, &first), "");
+    }
+    // whole runs are hashed in the part that kept them
+    let run = at.join("out/runs/000005.mcap");
+    let whole = fs::read(&run).unwrap();
+    assert!(!at.join("out/SHA256SUMS").exists());
+    damage(&run, false);
+    assert!(spoken(at, &first).contains("runs/000005.mcap"));
+    assert!(whole == fs::read(&run).unwrap(), "another run");
+    done(at, &["sweep", "merge", "out", "--csv"]);
+    assert_eq!(rows(at, "out"), rows(at, "whole"));
+    let listed = fs::read_to_string(at.join("out/SHA256SUMS")).unwrap();
+    assert!(listed.contains("  runs/000005.mcap\n"), "{listed}");
+    // a damaged table is made again from the parts
+    damage(&at.join("out/results.parquet"), false);
+    let said = spoken(at, &["sweep", "merge", "out", "--csv"]);
+    assert!(said.contains("results.parquet"), "{said}");
     done(at, &["study", "report", "out"]);
 }

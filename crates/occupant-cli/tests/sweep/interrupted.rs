@@ -1,33 +1,11 @@
 //! Sweeps that are killed and resumed.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 use std::process::Stdio;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use super::{STUDY, done, folder_with, occupant, rows};
-
-/// How often each sample stands in the journal, by the whole lines of its pieces.
-fn computed(out: &Path) -> BTreeMap<u64, u32> {
-    let mut times = BTreeMap::new();
-    let Ok(pieces) = fs::read_dir(out.join("journal")) else {
-        return times;
-    };
-    for piece in pieces {
-        let path = piece.unwrap().path();
-        if path.extension().is_none_or(|e| e != "rows") {
-            continue;
-        }
-        let text = fs::read_to_string(path).unwrap();
-        for line in text.split_inclusive('\n').skip(1).filter(|line| line.ends_with('\n')) {
-            let row: serde_json::Value = serde_json::from_str(line).unwrap();
-            *times.entry(row["is"]["index"].as_u64().unwrap()).or_default() += 1;
-        }
-    }
-    times
-}
+use super::{STUDY, computed, done, files, folder_with, killed, occupant, rows};
 
 #[test]
 fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twice() {
@@ -57,36 +35,25 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twic
     let kept = computed(&at.join("out"));
     done(at, &words);
     assert_eq!(rows(at, "out"), rows(at, "whole"));
-    let times = computed(&at.join("out"));
-    assert_eq!(times.len(), 800);
-    assert!(times.values().all(|n| *n == 1), "{times:?}");
+    assert!(kept.values().all(|n| *n == 1), "{kept:?}");
+    assert_eq!(files(&at.join("out/journal"), "").len(), 0, "the table holds all rows, and nothing else a copy");
     assert!(kept.len() >= 10, "the kills left {} rows", kept.len());
 }
 
 #[test]
 fn a_torn_row_is_cut_off_and_computed_again() {
-    let folder = folder_with(STUDY);
+    let folder = folder_with(&STUDY.replace("samples = 24", "samples = 200"));
     let at = folder.path();
-    done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"]);
-    let whole = rows(at, "out");
-    let journal = at.join("out/journal");
-    let piece = fs::read_dir(&journal)
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .find(|p| p.extension().is_some_and(|e| e == "rows"))
-        .unwrap();
+    let words = ["sweep", "study.toml", "-o", "out", "--csv", "--quiet"];
+    done(at, &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"]);
+    killed(at, &words);
+    let piece = files(&at.join("out/journal"), ".rows").remove(0);
     let bytes = fs::read(&piece).unwrap();
     for cut in [1, bytes.len() / 2, bytes.len() - 3] {
         fs::write(&piece, &bytes[..bytes.len() - cut]).unwrap();
-        done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"]);
-        assert_eq!(rows(at, "out"), whole, "cut by {cut}");
-        // what the next round cuts is the first piece alone
-        for entry in fs::read_dir(&journal).unwrap() {
-            let path = entry.unwrap().path();
-            if path != piece && path.extension().is_some_and(|e| e == "rows") {
-                fs::remove_file(path).unwrap();
-            }
-        }
+        done(at, &words);
+        assert_eq!(rows(at, "out"), rows(at, "whole"), "cut by {cut}");
+        ["results.parquet", "results.csv"].iter().for_each(|name| fs::remove_file(at.join("out").join(name)).unwrap());
     }
 }
 

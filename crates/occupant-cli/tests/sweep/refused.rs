@@ -24,8 +24,18 @@ fn another_study_in_the_same_folder_is_refused_and_the_difference_named() {
     assert!(said.contains("--restart"), "{said}");
     fs::write(at.join("study.toml"), STUDY).unwrap();
     let case = fs::read_to_string(at.join("case.toml")).unwrap();
-    fs::write(at.join("case.toml"), format!("{case}\n# more")).unwrap();
+    let other = case.replacen("[time]", "[time] # as in the report\n", 1);
+    fs::write(at.join("case.toml"), other.replacen("end", "end ", 1)).unwrap();
+    fs::write(at.join("study.toml"), format!("# a comment\n\n{}", STUDY.replace("seed = 3", "seed=3"))).unwrap();
+    assert!(fs::read_to_string(at.join("case.toml")).unwrap() != case);
+    done(at, &words);
+    fs::write(at.join("case.toml"), case.replacen("title = \"", "title = \"x", 1)).unwrap();
     assert!(refused(&words).contains("case.toml, line "));
+    fs::write(at.join("study.toml"), STUDY.replace("samples = 24", "samples = 48")).unwrap();
+    fs::write(at.join("case.toml"), case).unwrap();
+    let said = refused(&words);
+    assert!(said.contains("samples: 24 → 48 (a Latin hypercube of another size has other samples)"), "{said}");
+    fs::write(at.join("study.toml"), STUDY).unwrap();
     // nothing of that has touched the results
     assert_eq!(fs::read(at.join("out/results.parquet")).unwrap(), table);
     done(at, &[&words[..], &["--restart"]].concat());
@@ -56,7 +66,10 @@ fn flags_that_make_no_sense_are_refused_in_words() {
         (&["--keep", "some"], "unknown choice of runs"),
         (&["--keep", "24"], "there is no sample 24"),
         (&["--keep", "worst 2 by hick"], "there is no measure `hick`"),
-        (&["--shard", "1/2", "--csv"], "a shard does not write a table"),
+        (&["--shard", "1/2", "--csv"], "a part of the study is not written as CSV"),
+        (&["--range", "5..5"], "has no sample"),
+        (&["--range", "5..25"], "ends beyond the study, which has 24 samples"),
+        (&["--range", "half"], "is not a range"),
         (&["--shard", "1/2", "--restart"], "would remove the results of the others"),
         (&["--threads", "0"], "invalid value '0'"),
         (&["--set", "path.sped=3"], "sped"),

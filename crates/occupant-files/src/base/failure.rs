@@ -28,6 +28,8 @@ pub enum Failure {
     CouldNotRun(String),
     /// It was aborted: exit code 1.
     BrokeOff(String),
+    /// Another process is at the same work: exit code 75, `EX_TEMPFAIL` of sysexits.h. The same command succeeds later.
+    Busy(String),
 }
 
 impl Failure {
@@ -48,13 +50,14 @@ impl Failure {
         match self {
             Failure::CouldNotRun(message) => Failure::CouldNotRun(longer(message)),
             Failure::BrokeOff(message) => Failure::BrokeOff(longer(message)),
+            Failure::Busy(message) => Failure::Busy(longer(message)),
         }
     }
 
     /// Its message.
     pub fn words(self) -> String {
         match self {
-            Failure::CouldNotRun(words) | Failure::BrokeOff(words) => words,
+            Failure::CouldNotRun(words) | Failure::BrokeOff(words) | Failure::Busy(words) => words,
         }
     }
 

@@ -370,7 +370,7 @@ pub fn with_word(target: &Path, word: &str) -> PathBuf {
 }
 
 /// Makes the rename durable. A failure is ignored, as some systems cannot sync folders.
-fn sync_folder(target: &Path) {
+pub fn sync_folder(target: &Path) {
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty());
     if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {
         let _ = folder.sync_all();

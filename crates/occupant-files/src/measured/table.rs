@@ -312,9 +312,7 @@ mod tests {
     use super::*;
 
     fn table(text: &str) -> Result<Recording, String> {
-        read(Path::new("t.csv"), text, None, String::new()).map_err(|f| match f {
-            Failure::CouldNotRun(m) | Failure::BrokeOff(m) => m,
-        })
+        read(Path::new("t.csv"), text, None, String::new()).map_err(Failure::words)
     }
 
     #[test]

@@ -13,7 +13,7 @@ use occupant_study::search::Stage;
 
 use super::{Objective, Progress};
 use crate::base::{Failure, Interrupt};
-use crate::files::study_folder::{Checksums, Folder, Journal, JournalWriter, Problem, Row, Shard, Status};
+use crate::files::study_folder::{Block, Checksums, Folder, Journal, JournalWriter, Problem, Row, Status};
 use crate::sweep::words::tell_damaged;
 use occupant_files::table::Cell;
 
@@ -61,13 +61,14 @@ impl<'a, O: Objective> Evaluator<'a, O> {
     pub fn new(
         objective: &'a O,
         (folder, sums): (&Folder, &Checksums),
-        sha256: &str,
+        all: &Block,
         engine: &'a Engine,
         interrupt: &'a Interrupt,
         progress: Progress,
     ) -> Result<Self, Failure> {
-        let samples = objective.manifest().samples;
-        let (journal, aside) = Journal::mend(folder, (sha256, samples), sums)?;
+        let manifest = objective.manifest();
+        let read = || Journal::of_block(folder, manifest, all);
+        let (journal, aside) = Journal::mend(folder, sums, read)?;
         tell_damaged(&aside);
         let mut known = BTreeMap::new();
         journal.each_row(|row| {
@@ -80,7 +81,7 @@ impl<'a, O: Objective> Evaluator<'a, O> {
             engine,
             interrupt,
             known,
-            journal: JournalWriter::new(folder, sha256, Shard::WHOLE)?,
+            journal: JournalWriter::new(folder, &manifest.identity(), all),
             progress,
             records: Vec::new(),
         })

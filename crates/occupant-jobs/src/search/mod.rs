@@ -22,8 +22,7 @@ use occupant_study::engine::{Engine, Ran};
 use occupant_study::{Bounds, Parameter};
 
 use crate::base::{Failure, Interrupt, Show, say};
-use crate::files::study_folder::{Checksums, Column, Folder, Journal, Manifest, Shard};
-use crate::sweep::stored::sha256_of;
+use crate::files::study_folder::{Block, Checksums, Column, Folder, Journal, Manifest};
 use crate::sweep::words::{tell_damaged, warn_unlocked};
 
 /// What the candidates of a search are runs of, and what counts.
@@ -119,19 +118,19 @@ pub fn in_folder<O: Objective, A, T>(
     write: impl FnOnce(&A, &[Record], &Checksums) -> Result<T, Failure>,
 ) -> Result<T, Failure> {
     let (manifest, Work { engine, interrupt, show, restart }) = (objective.manifest(), work);
-    let sha256 = sha256_of(manifest)?;
-    let held = folder.claim(manifest, texts, Shard::WHOLE, *restart)?;
+    let all = Block { samples: 0..manifest.samples };
+    let held = folder.claim(manifest, texts, &all, *restart)?;
     warn_unlocked(&held, doing, show.quiet);
     let sums = Checksums::open(&folder.path, |_| true)?;
     let progress = Progress::new(budget, *show);
-    let mut evaluator = Evaluator::new(objective, (folder, &sums), &sha256, engine, interrupt, progress)?;
+    let mut evaluator = Evaluator::new(objective, (folder, &sums), &all, engine, interrupt, progress)?;
     tell_damaged(&[held.mended, sums.damaged()].concat());
     if evaluator.known() > 0 && !show.quiet {
         say(&format!("resuming: {} runs are finished", evaluator.known()));
     }
     let answer = search(&mut evaluator)?;
     let found = write(&answer, &evaluator.close()?, &sums)?;
-    Journal::list(folder, Shard::WHOLE, &sums)?;
+    Journal::list(folder, &all, &sums)?;
     sums.close()?;
     Ok(found)
 }

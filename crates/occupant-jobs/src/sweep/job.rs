@@ -1,17 +1,21 @@
-//! A sweep in its folder: computes what is missing, writes whole runs that are kept, then the tables.
+//! A sweep in its folder: computes what is missing, writes whole runs that are kept, then the tables, or its part of the table.
 
-use std::ops::Range;
+use std::thread::sleep;
+use std::time::Duration;
 
 use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
 use super::progress::Progress;
 use super::simulation::is_kept;
-use super::stored::sha256_of;
 use super::words::{indices, judged, tell, tell_damaged, warn_unlocked};
-use super::{Plan, Simulation, kept, results};
+use super::{Plan, Simulation, kept, parts, results};
 use crate::base::{Done, Failure, Interrupt, Show, Units, quoted, say};
-use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWriter, Problem, Shard};
+use crate::files::study_folder::checksums::sample_of;
+use crate::files::study_folder::{Block, Checksums, Finished, Folder, Held, Journal, JournalWriter, Problem};
+
+/// Interval of looks at a folder in which another process is at work.
+const LOOK_AGAIN: Duration = Duration::from_millis(500);
 
 /// A sweep, or one part of it.
 pub struct Sweep {
@@ -19,8 +23,10 @@ pub struct Sweep {
     pub plan: Plan,
     /// The folder.
     pub folder: Folder,
-    /// Part of the study.
-    pub shard: Shard,
+    /// Its samples: all, or a part of the study.
+    pub block: Block,
+    /// Whether it waits for another process at the same work.
+    pub wait: bool,
     /// Samples whose result file is kept.
     pub keep: Keep,
     /// Whether tables are also written as CSV.
@@ -40,20 +46,20 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Computes missing samples, and writes the tables of a whole sweep. Outcome and report.
+    /// Computes missing samples, and writes the tables of a whole sweep or the part of a range. Outcome and report.
     ///
     /// # Errors
     /// A folder of something else, or in which another process is at work; interrupted; an error of the operating system.
     pub fn run(&self) -> Result<(Done, String), Failure> {
         let Sweep { plan, folder, .. } = self;
         let manifest = &plan.manifest;
-        let held = folder.claim(manifest, &plan.texts, self.shard, self.restart)?;
-        warn_unlocked(&held, "computing the same shard", self.show.quiet);
+        let held = self.claim()?;
+        warn_unlocked(&held, "computing the same samples", self.show.quiet);
         kept::prepare(&self.keep, folder)?;
-        let samples = self.shard.range(manifest.samples);
-        let sha256 = sha256_of(manifest)?;
-        let sums = self.look_over(&samples)?;
-        let (journal, aside) = Journal::mend(folder, (&sha256, manifest.samples), &sums)?;
+        let samples = self.block.samples.clone();
+        let sums = self.look_over()?;
+        let (journal, aside) = Journal::mend(folder, &sums, || self.read())?;
+        journal.runs_in(folder).for_each(|(name, sum)| sums.learn(name, sum, true));
         tell_damaged(&[held.mended, aside, sums.damaged()].concat());
         let runs = kept::among(&sums.damaged(), folder, samples.clone());
         if let Some(note) =
@@ -61,53 +67,79 @@ impl Sweep {
         {
             say(&format!("note: {note}"));
         }
-        let progress = self.compute(&journal.finished, &samples, (&sha256, &sums))?;
+        let progress = self.compute(&journal.finished, &sums)?;
         let note = self.kernel.as_ref().and_then(|kernel| progress.disobeyed(kernel));
         note.iter().filter(|_| !self.show.quiet).for_each(|note| say(note));
-        let journal = Journal::read(std::slice::from_ref(folder), &sha256, manifest.samples)?;
+        let journal = self.read()?;
         let wanted = samples.clone().filter(|index| is_kept(&self.keep, *index));
         self.write_kept(&journal, &sums, wanted.chain(runs))?;
-        Journal::list(folder, self.shard, &sums)?;
-        if self.shard.is_whole() {
+        if self.is_whole() {
             return self.finish(&journal, &progress, sums);
         }
+        parts::write(folder, &journal, manifest, &self.block, sums.runs_of(&samples))?;
         if !self.show.quiet {
+            let count = samples.end - samples.start;
             say(&format!(
-                "shard {}: all {} samples are finished, {} of them now; when all shards are, make the table with `occupant sweep merge {}`",
-                self.shard,
-                samples.end - samples.start,
+                "{}: all {count} are finished, {} of them now; when all parts of the study are, make the table with `occupant sweep merge {}`",
+                self.block,
                 progress.computed,
-                folder.path.display()
+                quoted(folder.path.display())
             ));
         }
         Ok((Done::Well, String::new()))
     }
 
-    /// Verifies the files written by this shard.
-    fn look_over(&self, samples: &Range<u64>) -> Result<Checksums, Problem> {
-        let run = |name: &str| name.strip_prefix("runs/")?.split('.').next()?.parse::<u64>().ok();
-        Checksums::open(&self.folder.path, |name| match (run(name), name.rsplit_once('/')) {
-            (Some(index), _) => samples.contains(&index),
-            (None, Some(("journal", piece))) => Shard::of_file(piece) == Some(self.shard),
-            // bands are looked after by those who make them
-            (None, folder) => folder.is_none() && self.shard.is_whole(),
-        })
+    fn is_whole(&self) -> bool {
+        self.block.is_all_of(self.plan.manifest.samples)
+    }
+
+    /// Claims the folder, when others have left it if they may be waited for.
+    fn claim(&self) -> Result<Held, Failure> {
+        let Sweep { plan, folder, .. } = self;
+        let mut is_told = self.show.quiet;
+        loop {
+            match folder.claim(&plan.manifest, &plan.texts, &self.block, self.restart) {
+                Err(problem @ Problem::Busy { .. }) if self.wait => {
+                    if !std::mem::replace(&mut is_told, true) {
+                        say(&format!("waiting: {}", problem.to_string().lines().next().unwrap_or_default()));
+                    }
+                    self.interrupt.refuse("nothing; another process is at work")?;
+                    sleep(LOOK_AGAIN);
+                }
+                claimed => return Ok(claimed?),
+            }
+        }
+    }
+
+    /// What there is: of a part of the study its own files alone.
+    fn read(&self) -> Result<Journal, Problem> {
+        let Sweep { plan, folder, block, .. } = self;
+        match self.is_whole() {
+            true => Journal::read(std::slice::from_ref(folder), &plan.manifest),
+            false => Journal::of_block(folder, &plan.manifest, block),
+        }
+    }
+
+    /// Verifies the files written by this sweep, or for these samples.
+    fn look_over(&self) -> Result<Checksums, Problem> {
+        let Sweep { folder, block, .. } = self;
+        if !self.is_whole() {
+            return Checksums::read(&folder.path, folder.beside_journal(block, "sums"), |_| true);
+        }
+        // bands are looked after by those who make them
+        Checksums::open(&folder.path, |name| sample_of(name).is_some() || !name.contains('/'))
     }
 
     /// Computes unfinished samples.
-    fn compute(
-        &self,
-        finished: &Finished,
-        samples: &Range<u64>,
-        (sha256, sums): (&str, &Checksums),
-    ) -> Result<Progress, Failure> {
+    fn compute(&self, finished: &Finished, sums: &Checksums) -> Result<Progress, Failure> {
+        let (manifest, samples) = (&self.plan.manifest, self.block.samples.clone());
         let before = finished.count(samples.clone());
         let count = samples.end - samples.start;
         if before > 0 && before < count && !self.show.quiet {
             say(&format!("resuming: {before} of {count} samples are finished"));
         }
         let mut progress = Progress::new(count, before, self.show);
-        let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
+        let mut journal = JournalWriter::new(&self.folder, &manifest.identity(), &self.block);
         let simulation = Simulation { plan: &self.plan, keep: &self.keep, folder: &self.folder, sums };
         let missing = samples.clone().filter(|index| !finished.has(*index));
         let ended = self.engine.run(&simulation, missing, &self.interrupt.asked, |row| {
@@ -120,9 +152,18 @@ impl Sweep {
         let done = before + progress.computed;
         let kept = format!("{done} of {count} samples are finished and kept; run the same command again to resume");
         let kept = self.folder.still(kept);
-        ended.map_err(|failure| failure.with_done(&kept))?;
+        match ended {
+            // without locks another process has computed the same samples, and was quicker
+            Err(_) if self.has_all() => {}
+            ended => ended.map_err(|failure| failure.with_done(&kept))?,
+        }
         self.interrupt.refuse(&kept)?;
         Ok(progress)
+    }
+
+    fn has_all(&self) -> bool {
+        let count = self.block.samples.end - self.block.samples.start;
+        self.read().is_ok_and(|journal| journal.finished.count(self.block.samples.clone()) == count)
     }
 
     /// Writes missing result files of finished samples.
@@ -142,6 +183,7 @@ impl Sweep {
         let results = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
         self.write_kept(journal, &sums, results.worst.iter().copied())?;
         sums.close()?;
+        self.folder.clear_journals()?;
         if self.show.quiet {
             return Ok((judged(&results.census), String::new()));
         }

@@ -1,15 +1,17 @@
 //! Sweeps: every sample of a study run, one row each, on all cores, to be resumed after any interruption.
 //!
 //! ```text
-//! study ─ Plan ─ engine (sample → model → run → figures → row) ─ journal ─ table, census, worst, stable
+//! study ─ Plan ─ engine (sample → model → run → figures → row) ─ journal ─ parts ─ table, census, worst, stable
 //! ```
 //!
-//! A finished sample is a row in the journal at once; the table is made from the journal when all are there.
+//! A finished sample is a row in the journal at once. When all of a range are there, the journal becomes a part of the table; the
+//! table is made from parts and journals when all samples are there.
 
-pub mod census;
 pub mod extremes;
+mod identity;
 pub mod job;
 pub mod kept;
+mod parts;
 pub mod plan;
 mod progress;
 mod rehearsal;
@@ -19,7 +21,7 @@ mod stable;
 pub mod stored;
 pub mod words;
 
-pub use census::Census;
+pub use crate::files::study_folder::Census;
 pub use extremes::Extremes;
 pub use plan::Plan;
 pub use results::Results;

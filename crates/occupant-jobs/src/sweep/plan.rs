@@ -10,6 +10,7 @@ use occupant_scenario::{Diagnostics, Draft, Loaded, names_file};
 use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
 
+use super::identity::{digest, fixed};
 use crate::base::{Failure, file_name};
 use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused, retitle};
 use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
@@ -93,6 +94,9 @@ impl Plan {
         plan.take_tables(texts);
         plan.manifest.columns = plan.columns()?;
         (plan.manifest.texts, plan.texts) = texts.all();
+        let texts: Vec<_> = plan.manifest.texts.iter().zip(plan.texts.iter().map(Vec::as_slice)).collect();
+        plan.manifest.study = digest(&plan.study, &texts);
+        plan.manifest.fixed = fixed(&plan.study.design);
         Ok(plan)
     }
 

@@ -26,7 +26,7 @@ impl Sweep {
     /// # Errors
     /// The first sample is refused or fails.
     pub fn rehearse(&self) -> Result<String, Failure> {
-        let (manifest, samples) = (&self.plan.manifest, self.shard.range(self.plan.manifest.samples));
+        let (manifest, samples) = (&self.plan.manifest, self.block.samples.clone());
         let count = samples.end - samples.start;
         let (corners, refused) = self.corners();
         let seconds = self.of_one(samples.start).map_err(|failure| match &refused[..] {

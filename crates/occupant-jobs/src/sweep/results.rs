@@ -8,7 +8,7 @@ use super::{Census, Ensembles, Extremes, Stable};
 use crate::base::{Existing, Failure};
 use crate::ensemble::text::is_shown;
 use crate::files::study_folder::table::write_columns;
-use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, Role, StudyTable};
+use crate::files::study_folder::{About, Checksums, Folder, Journal, Manifest, Problem, Role, StudyTable};
 use occupant_files::table::{Cell, Form};
 
 /// Results of a sweep.
@@ -41,7 +41,7 @@ pub fn write(
     let _alone = folder.claim_table()?;
     // a table that is damaged is made again, whatever is asked for today
     let csv = csv || sums.damaged().iter().any(|file| file.extension().is_some_and(|e| e == "csv"));
-    let written = write_files(folder, journal, manifest, keep, csv);
+    let written = write_files((folder, sums), journal, manifest, keep, csv);
     if written.is_err() {
         // what a full disk has left of a table is of no use, and the disk is full
         folder.remove_partial_tables();
@@ -54,17 +54,17 @@ pub fn write(
 /// Refuses journals with missing samples.
 ///
 /// # Errors
-/// Missing samples, by shard.
+/// Missing samples.
 pub fn refuse_gaps(journal: &Journal, manifest: &Manifest) -> Result<(), Failure> {
     let (samples, gaps) = (manifest.samples, journal.finished.gaps(0..manifest.samples));
     if gaps.is_empty() {
         return Ok(());
     }
-    Err(Problem::Incomplete { gaps, samples, shards: journal.lacking(samples) }.into())
+    Err(Problem::Incomplete { gaps, samples }.into())
 }
 
 fn write_files(
-    folder: &Folder,
+    (folder, sums): (&Folder, &Checksums),
     journal: &Journal,
     manifest: &Manifest,
     keep: &Keep,
@@ -75,13 +75,16 @@ fn write_files(
         _ => (0, None),
     };
     let mut extremes = Extremes::new(usize::try_from(count).unwrap_or(usize::MAX));
-    let mut census = Census::new(manifest);
     let mut ranges = ranges(manifest);
     let mut stable = Stable::begin(folder, manifest, csv)?;
-    let asked = std::iter::once((folder.parquet(), Form::Parquet)).chain(csv.then(|| (folder.csv(), Form::Csv)));
+    // a table that is whole stays as it is
+    let is_there = journal.only_part().is_some_and(|part| part.path == folder.parquet());
+    let parquet = (!is_there).then(|| (folder.parquet(), Form::Parquet));
+    let asked = parquet.into_iter().chain(csv.then(|| (folder.csv(), Form::Csv)));
+    let mut about = About::new(manifest, &(0..manifest.samples));
     let mut table = StudyTable::create(asked, Existing::Replace, manifest)?;
     journal.each_row(|row| {
-        let counts = census.see(&row);
+        let counts = about.see(&row);
         let value = figure.and_then(|at| row.cells.get(at)).and_then(Cell::number);
         if let (true, Some(value)) = (counts, value) {
             extremes.see(&row.index, value);
@@ -94,14 +97,22 @@ fn write_files(
         }
         table.row(&row)
     })?;
-    let mut files = table.publish()?;
+    about.runs = sums.runs_of(&(0..manifest.samples));
+    let written = table.publish_part(&about)?;
+    let mut files: Vec<PathBuf> = is_there.then(|| folder.parquet()).into_iter().chain(written).collect();
     if csv {
         files.push(write_columns(folder.columns(), manifest)?);
     }
     let ensembles = stable.map(Stable::finish).transpose()?;
     files.extend(ensembles.iter().flat_map(|e| e.files.clone()));
     let ranges = ranges.into_iter().map(|(_, name, unit, range)| (name, unit, range)).collect();
-    Ok(Results { census, worst: extremes.worst.iter().map(|(_, index)| *index).collect(), ranges, ensembles, files })
+    Ok(Results {
+        census: about.census,
+        worst: extremes.worst.iter().map(|(_, index)| *index).collect(),
+        ranges,
+        ensembles,
+        files,
+    })
 }
 
 /// Figures shown in tables: column, name, unit, empty range.

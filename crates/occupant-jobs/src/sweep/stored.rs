@@ -10,7 +10,7 @@ use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, 
 pub struct Stored {
     /// Its manifest.
     pub manifest: Manifest,
-    /// SHA-256 of the manifest with which it was started.
+    /// Identity of the study: [`Manifest::identity`].
     pub manifest_sha256: String,
     /// The study, read from the copies.
     pub plan: Plan,
@@ -34,6 +34,18 @@ pub enum MadeBy {
 /// # Errors
 /// A folder that is none of a sweep, or of another one than the first; copies that were changed; a damaged journal.
 pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
+    open_with(folders, by, Journal::read)
+}
+
+/// The same with another way to read the rows, such as [`Journal::read_parts`].
+///
+/// # Errors
+/// As [`open`].
+pub fn open_with(
+    folders: &[PathBuf],
+    by: MadeBy,
+    read: fn(&[Folder], &Manifest) -> Result<Journal, Problem>,
+) -> Result<Stored, Failure> {
     let folders: Vec<Folder> = folders.iter().map(|f| Folder::at(f)).collect();
     let manifest = common_manifest(&folders)?;
     let (Some(first), Some(study)) = (folders.first(), manifest.texts.first()) else {
@@ -41,7 +53,7 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
     };
     let texts = Texts::of_copies(first, &manifest);
     let (made_by, same): (String, fn(&Manifest, &Manifest) -> bool) = match by {
-        MadeBy::ThisProgram => (program(), |a, b| a == b),
+        MadeBy::ThisProgram => (program(), Manifest::is_of),
         // the study as the sweep saw it, whichever program that was
         MadeBy::AnyProgram => (manifest.program.clone(), |a, b| a.samples == b.samples && inputs(a) == inputs(b)),
     };
@@ -53,7 +65,6 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),
         }));
     }
-    let manifest_sha256 = sha256_of(&manifest)?;
     for folder in &folders {
         let sums = Checksums::open(&folder.path, |name| name.starts_with("journal/"))?;
         if let Some(path) = sums.damaged().into_iter().next() {
@@ -61,7 +72,7 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
             return Err(Problem::Damaged { path, found }.into());
         }
     }
-    let journal = Journal::read(&folders, &manifest_sha256, manifest.samples)?;
+    let journal = read(&folders, &manifest)?;
     let mut notes = Vec::new();
     if manifest.program != program() {
         notes.push(format!(
@@ -70,7 +81,7 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
             program()
         ));
     }
-    Ok(Stored { manifest_sha256, plan, journal, notes, manifest })
+    Ok(Stored { manifest_sha256: manifest.identity(), plan, journal, notes, manifest })
 }
 
 /// The manifest that all folders share.
@@ -90,7 +101,7 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let common = manifest_of(first)?;
     for folder in others {
         let other = manifest_of(folder)?;
-        if other != common {
+        if !other.is_of(&common) {
             let text = |f: &Folder, t: &Text| f.copy_of(t).ok();
             let lines = common.differences(&other, |t| text(first, t), |t| text(folder, t));
             return Err(Failure::plain(format!(
@@ -102,15 +113,6 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
         }
     }
     Ok(common)
-}
-
-/// SHA-256 of a manifest.
-///
-/// # Errors
-/// A study that cannot be written as text.
-pub fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
-    let sha256 = manifest.sha256();
-    sha256.map_err(|error| Failure::plain(format!("the manifest cannot be written: {error}")))
 }
 
 /// Names of the input columns.

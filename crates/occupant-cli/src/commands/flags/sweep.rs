@@ -2,6 +2,7 @@
 
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
@@ -9,6 +10,7 @@ use occupant_core::run::batch::Kernel;
 use occupant_study::engine::Engine;
 
 use crate::base::Failure;
+use occupant_jobs::files::study_folder::block::Block;
 use occupant_jobs::files::study_folder::shard::Shard;
 
 /// The shard to compute, from the flag or the environment variable.
@@ -25,6 +27,13 @@ pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>)
         Some((shard, variable)) => (shard, Some(variable)),
         None => (Shard::WHOLE, None),
     })
+}
+
+/// The samples to choose from: a range, or all of the study.
+pub(crate) fn range(given: Option<&str>, samples: u64) -> Result<Range<u64>, Failure> {
+    let block = given.map(|text| Block::parse(text, samples)).transpose();
+    let block = block.map_err(|found| Failure::plain(format!("--range: {found}")))?;
+    Ok(block.map_or(0..samples, |block| block.samples))
 }
 
 /// Largest number of threads; more only cost memory.

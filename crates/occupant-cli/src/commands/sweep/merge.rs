@@ -10,15 +10,16 @@ use crate::base::{Done, Failure, UnitsArg, print, quoted};
 use crate::commands::flags::sweep::engine;
 use occupant_jobs::files::study_folder::checksums::Checksums;
 use occupant_jobs::files::study_folder::folder::Folder;
+use occupant_jobs::files::study_folder::journal::Journal;
 use occupant_jobs::files::study_folder::problem::Problem;
 use occupant_jobs::sweep::results::refuse_gaps;
-use occupant_jobs::sweep::stored::{MadeBy, Stored, open};
+use occupant_jobs::sweep::stored::{MadeBy, Stored, open_with};
 use occupant_jobs::sweep::words::{judged, tell, tell_damaged};
 use occupant_jobs::sweep::{kept, results};
 
-/// Merge the shards of a sweep into one table
+/// Merge the parts of a sweep into one table
 ///
-/// Lists missing samples, if any.
+/// Lists missing samples, if any. Of samples that stand in two parts the first counts.
 #[derive(Debug, clap::Args)]
 pub(crate) struct MergeArgs {
     /// The folder of the sweep, or several folders with parts of one sweep
@@ -51,7 +52,8 @@ pub(crate) struct MergeArgs {
 
 /// Makes one table of shards.
 pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
-    let Stored { manifest, plan, journal, .. } = open(&args.folders, MadeBy::ThisProgram)?;
+    let opened = open_with(&args.folders, MadeBy::ThisProgram, Journal::read_parts)?;
+    let Stored { manifest, plan, journal, .. } = opened;
     refuse_gaps(&journal, &manifest)?;
     let Some(target) = args.output.as_ref().or(args.folders.first()) else {
         return Err(Failure::plain("give the folder of a sweep"));
@@ -59,9 +61,11 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let target = Folder::at(target);
     std::fs::create_dir_all(&target.path).map_err(Problem::io("create", &target.path))?;
     target.refuse_other_results(&manifest)?;
+    target.describe(&plan.manifest, &plan.texts)?;
     let keep = kept::chosen(args.keep.as_deref(), &plan)?;
     kept::prepare(&keep, &target)?;
     let sums = Checksums::open(&target.path, |name| !name.starts_with("bands/"))?;
+    journal.runs_in(&target).for_each(|(name, sum)| sums.learn(name, sum, true));
     tell_damaged(&sums.damaged());
     let runs = kept::among(&sums.damaged(), &target, 0..manifest.samples);
     let found = results::write((&target, &sums), &journal, &manifest, &keep, args.csv || plan.study.csv)?;

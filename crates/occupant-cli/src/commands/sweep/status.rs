@@ -18,7 +18,7 @@ pub(crate) struct StatusArgs {
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
 
-    /// Print all missing samples as FROM-TO, one range per line, for another program
+    /// Print all missing samples as FROM-TO, one range per line: `occupant sweep --range` computes one
     #[arg(long)]
     missing: bool,
 }
@@ -34,13 +34,7 @@ pub(crate) fn status(args: &StatusArgs) -> Result<(), Failure> {
         let lines: Vec<String> = gaps.iter().map(|gap| format!("{}-{}\n", gap.start, gap.end - 1)).collect();
         return print(&lines.concat());
     }
-    let mut census = Census::new(&manifest);
-    let mut spent_s = 0.0;
-    journal.each_row(|row| {
-        census.see(&row);
-        spent_s += row.wall_time_s;
-        Ok(())
-    })?;
+    let (census, spent_s) = journal.census()?;
     print(&text(&census, spent_s, &ranges_text(&gaps, RANGES)))
 }
 
@@ -63,7 +57,8 @@ fn text(census: &Census, spent_s: f64, missing: &str) -> String {
     }
     if to_go > 0 {
         lines.push(("missing", missing.to_owned()));
-        lines.push(("next", "the same command of `occupant sweep` computes what is missing".to_owned()));
+        let next = "the same command of `occupant sweep` computes what is missing, with --range FROM-TO a part of it";
+        lines.push(("next", next.to_owned()));
     }
     facts(&lines)
 }

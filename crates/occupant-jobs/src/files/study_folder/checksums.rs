@@ -1,4 +1,5 @@
-//! Hashes of the complete files of a folder: `SHA256SUMS`, as `sha256sum -c` reads it.
+//! Hashes of the complete files of a folder: `SHA256SUMS`, as `sha256sum -c` reads it; those of a block's runs stand in its
+//! journal, then in its part.
 //!
 //! A line is appended as soon as a file has its name; of two lines for one file the later counts. A file without a line
 //! was incomplete when its process was killed, and is made again; a file that differs from its line is damaged.
@@ -6,12 +7,13 @@
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
 use super::problem::Problem;
 use crate::base::names::stays_within;
-use crate::base::{Existing, sha256, write_whole};
+use crate::base::{Existing, sha256_of_file, write_whole};
 
 /// Number of characters of a checksum.
 const SUM: usize = 64;
@@ -19,10 +21,17 @@ const SUM: usize = 64;
 /// Name of the checksum file.
 pub const SUMS: &str = "SHA256SUMS";
 
+/// The sample of a whole run, by its name.
+pub fn sample_of(name: &str) -> Option<u64> {
+    name.strip_prefix("runs/")?.split('.').next()?.parse().ok()
+}
+
 /// Checksums of a folder, and which of its files are intact.
 #[derive(Debug)]
 pub struct Checksums {
     folder: PathBuf,
+    /// The file with the checksums.
+    list: PathBuf,
     /// By name, relative to the folder.
     listed: Mutex<BTreeMap<String, Listed>>,
 }
@@ -40,24 +49,51 @@ impl Checksums {
     /// # Errors
     /// An error of the operating system.
     pub fn open(folder: &Path, wanted: impl Fn(&str) -> bool) -> Result<Checksums, Problem> {
-        let path = folder.join(SUMS);
-        let text = match fs::read(&path) {
+        Checksums::read(folder, folder.join(SUMS), wanted)
+    }
+
+    /// Reads the checksums that stand in `list` and verifies the files whose names `wanted` selects.
+    ///
+    /// # Errors
+    /// An error of the operating system.
+    pub fn read(folder: &Path, list: PathBuf, wanted: impl Fn(&str) -> bool) -> Result<Checksums, Problem> {
+        let text = match fs::read(&list) {
             Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
-            read => read.map_err(Problem::io("read", &path))?,
+            read => read.map_err(Problem::io("read", &list))?,
         };
         let text = String::from_utf8_lossy(&text);
         // what a killed process has left of its last line has no end; the next one is appended to it and is lost as well
         let lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n')?.split_once("  "));
-        let listed = |(sum, name): (&str, &str)| (name.to_owned(), Listed { sum: sum.to_owned(), sound: None });
-        let ours = lines.filter(|(sum, name)| sum.len() == SUM && stays_within(name));
-        let mut listed: BTreeMap<String, Listed> = ours.map(listed).collect();
-        for (name, file) in listed.iter_mut().filter(|(name, _)| wanted(name)) {
-            file.sound = match fs::read(folder.join(name)) {
-                Err(error) if error.kind() == ErrorKind::NotFound => None,
-                read => Some(read.is_ok_and(|bytes| sha256(&bytes) == file.sum)),
-            };
+        let sums = Checksums { folder: folder.to_owned(), list, listed: Mutex::default() };
+        for (sum, name) in lines {
+            sums.learn(name, sum, false);
         }
-        Ok(Checksums { folder: folder.to_owned(), listed: Mutex::new(listed) })
+        let names: Vec<String> = sums.listed().keys().filter(|name| wanted(name)).cloned().collect();
+        for name in names {
+            let sum = sums.listed()[&name].sum.clone();
+            sums.learn(&name, &sum, true);
+        }
+        Ok(sums)
+    }
+
+    /// Takes a checksum from elsewhere; whether the file is intact is looked at with `verify`.
+    pub fn learn(&self, name: &str, sum: &str, verify: bool) {
+        if sum.len() != SUM || !stays_within(name) {
+            return;
+        }
+        let sound = || match sha256_of_file(&self.folder.join(name)) {
+            Err(error) if error.kind() == ErrorKind::NotFound => None,
+            found => Some(found.is_ok_and(|found| found == sum)),
+        };
+        let sound = if verify { sound() } else { None };
+        self.listed().insert(name.to_owned(), Listed { sum: sum.to_owned(), sound });
+    }
+
+    /// Names and checksums of the whole runs of these samples.
+    pub fn runs_of(&self, samples: &Range<u64>) -> BTreeMap<String, String> {
+        let listed = self.listed();
+        let ours = listed.iter().filter(|(name, _)| sample_of(name).is_some_and(|index| samples.contains(&index)));
+        ours.map(|(name, file)| (name.clone(), file.sum.clone())).collect()
     }
 
     fn listed(&self) -> MutexGuard<'_, BTreeMap<String, Listed>> {
@@ -86,13 +122,13 @@ impl Checksums {
     /// # Errors
     /// An error of the operating system.
     pub fn add(&self, path: &Path) -> Result<(), Problem> {
-        let sum = sha256(&fs::read(path).map_err(Problem::io("read", path))?);
-        let (name, list) = (self.name(path), self.folder.join(SUMS));
+        let sum = sha256_of_file(path).map_err(Problem::io("read", path))?;
+        let (name, list) = (self.name(path), &self.list);
         let mut listed = self.listed();
         if listed.get(&name).is_none_or(|file| file.sum != sum) {
-            let appended = OpenOptions::new().create(true).append(true).open(&list);
+            let appended = OpenOptions::new().create(true).append(true).open(list);
             let line = format!("{sum}  {name}\n");
-            appended.and_then(|mut file| file.write_all(line.as_bytes())).map_err(Problem::io("write", &list))?;
+            appended.and_then(|mut file| file.write_all(line.as_bytes())).map_err(Problem::io("write", list))?;
         }
         listed.insert(name, Listed { sum, sound: Some(true) });
         Ok(())
@@ -123,7 +159,7 @@ impl Checksums {
         let listed = self.listed();
         let there = listed.iter().filter(|(name, _)| self.folder.join(name).exists());
         let lines: String = there.map(|(name, file)| format!("{}  {name}\n", file.sum)).collect();
-        write_whole(&self.folder.join(SUMS), Existing::Replace, lines.as_bytes())?;
+        write_whole(&self.list, Existing::Replace, lines.as_bytes())?;
         Ok(())
     }
 }

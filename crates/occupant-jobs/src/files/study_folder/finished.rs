@@ -12,11 +12,18 @@ impl Finished {
         Finished(vec![false; samples as usize])
     }
 
-    /// Adds a sample if it belongs to the study.
-    pub fn add(&mut self, index: u64) {
-        if let Some(finished) = self.0.get_mut(index as usize) {
-            *finished = true;
+    /// Adds the samples that belong to the study.
+    pub fn add(&mut self, samples: Range<u64>) {
+        let most = self.0.len() as u64;
+        let [start, end] = [samples.start, samples.end].map(|border| border.min(most) as usize);
+        if let Some(finished) = self.0.get_mut(start..end) {
+            finished.fill(true);
         }
+    }
+
+    /// Whether all samples are finished.
+    pub fn is_full(&self) -> bool {
+        self.0.iter().all(|finished| *finished)
     }
 
     /// Whether a sample is finished.
@@ -63,9 +70,10 @@ mod tests {
     fn gaps_are_what_was_not_added() {
         let mut finished = Finished::none(200);
         for index in (0..200).filter(|i| !(60..70).contains(i) && *i != 199) {
-            finished.add(index);
+            finished.add(index..index + 1);
         }
-        finished.add(1 << 40);
+        finished.add(1 << 40..1 << 41);
+        assert!(!finished.is_full());
         assert!(!finished.has(1 << 40));
         assert_eq!(finished.gaps(0..200), [60..70, 199..200]);
         assert_eq!(finished.gaps(0..65), vec![60..65]);

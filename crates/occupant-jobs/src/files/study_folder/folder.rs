@@ -3,8 +3,9 @@
 //! ```text
 //! sweep.json               what the folder is the sweep of
 //! inputs/                  copies of study, scenario and tables
-//! journal/*.rows           finished samples, in pieces
-//! journal/*.lock           locked while a process works on that shard
+//! journal/*.rows           finished samples of the ranges that are computed, in pieces
+//! journal/*.lock           locked while a process works on that range
+//! parts/FIRST-LAST.parquet the table of a range that is finished, for a part of the study
 //! results.parquet          the table, when all samples are finished
 //! SHA256SUMS               what the files of results were when they were complete
 //! runs/000123.mcap         whole runs that are kept
@@ -16,17 +17,23 @@ use std::path::{Path, PathBuf};
 
 use occupant_study::MOST_RUNS;
 
+use super::block::Block;
 use super::checksums::SUMS;
 use super::journal::is_named_by_rows;
 use super::manifest::{Manifest, Text};
+use super::piece::pieces_of;
 use super::problem::Problem;
-use super::shard::Shard;
 use crate::base::names::stays_within;
-use crate::base::{Existing, file_name, input_file, partial_path, remove_if_there, write_whole};
+use crate::base::{Existing, file_name, input_file, is_at, partial_path, remove_if_there, sha256, write_whole};
+
+/// How often a lock file that was removed is made again.
+const MOST_TRIES: usize = 100;
 
 const LOCK: &str = "sweep.lock";
+const WORK: &str = "work.lock";
 const INPUTS: &str = "inputs";
 const JOURNAL: &str = "journal";
+const PARTS: &str = "parts";
 const RUNS: &str = "runs";
 
 /// Kind of a result folder.
@@ -44,8 +51,8 @@ pub struct Holds {
 pub const SWEEP: &Holds = &Holds {
     word: "sweep",
     manifest: "sweep.json",
-    results: &["results.parquet", "results.csv", "columns.csv", "ensemble.parquet", "ensemble.csv"],
-    folders: &[(RUNS, ".mcap")],
+    results: &["results.parquet", "results.damaged", "results.csv", "columns.csv", "ensemble.parquet", "ensemble.csv"],
+    folders: &[(RUNS, ".mcap"), (PARTS, ".parquet"), (PARTS, ".damaged")],
 };
 const FIT: &Holds = &Holds {
     word: "fit",
@@ -68,11 +75,11 @@ pub struct Folder {
     holds: &'static Holds,
 }
 
-/// A lock held until the process ends, for whatever reason.
+/// Locks held until the process ends, for whatever reason.
 #[derive(Debug)]
 pub struct Held {
-    // the lock lives as long as the file is open; a file system without locks gives none
-    _file: File,
+    // a lock lives as long as its file is open; a file system without locks gives none
+    _files: Vec<File>,
     /// Error message of a file system without locks.
     pub unlocked: Option<String>,
     /// Manifest and copies that were damaged and rewritten.
@@ -107,6 +114,21 @@ impl Folder {
     /// The journal of finished rows.
     pub fn journal(&self) -> PathBuf {
         self.path.join(JOURNAL)
+    }
+
+    /// The parts of the table.
+    pub fn parts(&self) -> PathBuf {
+        self.path.join(PARTS)
+    }
+
+    /// The part of the table with these samples.
+    pub fn part(&self, block: &Block) -> PathBuf {
+        self.parts().join(format!("{}.parquet", block.stem()))
+    }
+
+    /// A file of a block that lives as long as it is computed.
+    pub fn beside_journal(&self, block: &Block, ending: &str) -> PathBuf {
+        self.journal().join(format!("{}.{ending}", block.stem()))
     }
 
     /// The table.
@@ -167,36 +189,88 @@ impl Folder {
         })
     }
 
-    /// Claims the folder for part `shard` of this sweep, new or existing.
+    /// Claims the folder for these samples of this sweep, new or existing. What neighbours have done or do is not looked at,
+    /// unless they and this process are in each other's way: all samples are claimed alone.
     ///
     /// # Errors
     /// It holds something else; another process is at work on it; an error of the operating system.
-    pub fn claim(&self, manifest: &Manifest, texts: &[Vec<u8>], shard: Shard, restart: bool) -> Result<Held, Problem> {
+    pub fn claim(&self, manifest: &Manifest, texts: &[Vec<u8>], block: &Block, restart: bool) -> Result<Held, Problem> {
         fs::create_dir_all(&self.path).map_err(Problem::io("create", &self.path))?;
-        let _one_at_a_time = self.wait()?;
-        // the rows say whose they are, whatever has become of the manifest
-        let ours = !restart && is_named_by_rows(self, manifest)?;
-        if !ours {
-            self.refuse_other_files()?;
+        self.refuse_other_files(manifest, restart)?;
+        let alone = restart || block.is_all_of(manifest.samples);
+        let working = self.lock(&self.path.join(WORK), !alone)?;
+        let doing = if alone { "computes the same study" } else { "computes all samples of the study" };
+        let working = working.ok_or_else(|| self.busy(doing.to_owned()))?;
+        let mended = if restart || !self.is_ready(manifest) {
+            let _one_at_a_time = self.wait()?;
+            self.prepare(manifest, texts, restart)?
+        } else {
+            Vec::new()
+        };
+        let parts = (self.holds.word == SWEEP.word).then(|| self.parts());
+        for folder in [self.journal()].into_iter().chain(parts) {
+            fs::create_dir_all(&folder).map_err(Problem::io("create", &folder))?;
         }
-        self.refuse_others(shard, restart)?;
+        let held = self.lock(&self.beside_journal(block, "lock"), false)?;
+        let mut held = held.ok_or_else(|| self.busy(format!("computes {block}")))?;
+        held._files.extend(working._files);
+        Ok(Held { mended, ..held })
+    }
+
+    /// Whether manifest and copies are those of this sweep, as they were written.
+    fn is_ready(&self, manifest: &Manifest) -> bool {
+        let ours = self.manifest().ok().flatten().filter(|there| there.is_of(manifest));
+        ours.is_some_and(|there| self.changed(&there, manifest).is_empty())
+    }
+
+    /// Makes manifest and copies those of this sweep; those that were damaged.
+    fn prepare(&self, manifest: &Manifest, texts: &[Vec<u8>], restart: bool) -> Result<Vec<PathBuf>, Problem> {
         if restart {
             self.clear()?;
         }
-        let mut mended = Vec::new();
-        match self.manifest() {
-            Ok(Some(there)) if there == *manifest => mended = self.mend_copies(manifest, texts)?,
-            _ if ours => {
-                self.begin(manifest, texts)?;
-                mended.push(self.manifest_path());
+        let mended = match self.manifest() {
+            Ok(Some(there)) if there.is_of_study(manifest) => {
+                if !self.goes_on(&there, manifest, texts) {
+                    return Err(self.differs(&there, manifest, texts));
+                }
+                self.changed(&there, manifest)
             }
+            // the rows say whose they are, whatever has become of the manifest
+            _ if is_named_by_rows(self, manifest)? => vec![self.manifest_path()],
             Ok(Some(there)) => return Err(self.differs(&there, manifest, texts)),
-            Ok(None) => self.begin(manifest, texts)?,
+            Ok(None) => Vec::new(),
             Err(problem) => return Err(problem),
-        }
-        let name = format!("{}.lock", shard.file_stem());
-        let held = self.lock(&self.journal().join(name))?.map(|held| Held { mended, ..held });
-        held.ok_or_else(|| self.busy(format!("computes shard {shard}")))
+        };
+        self.begin(manifest, texts)?;
+        Ok(mended)
+    }
+
+    /// Whether this study begins with the samples that are there: it has as many or more, and so have its tables lines.
+    fn goes_on(&self, there: &Manifest, here: &Manifest, texts: &[Vec<u8>]) -> bool {
+        let pairs = there.texts.iter().zip(here.texts.iter().zip(texts)).skip(2);
+        let begins = |(old, (new, bytes)): (&Text, (&Text, &Vec<u8>))| {
+            let old = if old.sha256 == new.sha256 { Some(bytes.clone()) } else { self.copy_of(old).ok() };
+            old.is_some_and(|old| bytes.starts_with(&old) && (old.ends_with(b"\n") || old.len() == bytes.len()))
+        };
+        there.samples <= here.samples && there.texts.len() == here.texts.len() && { pairs }.all(begins)
+    }
+
+    /// Manifest and copies that are not as they were written for `there`.
+    fn changed(&self, there: &Manifest, here: &Manifest) -> Vec<PathBuf> {
+        let same_texts = there.texts == here.texts && there.samples == here.samples;
+        let bytes = |manifest: &Manifest| manifest.to_bytes().unwrap_or_default();
+        let manifest = (same_texts && bytes(there) != bytes(here)).then(|| self.manifest_path());
+        let is_whole = |text: &&Text| self.copy_of(text).is_ok_and(|bytes| sha256(&bytes) == text.sha256);
+        let copies = there.texts.iter().filter(|text| !is_whole(text)).map(|text| self.path.join(&text.copy));
+        manifest.into_iter().chain(copies).collect()
+    }
+
+    /// Makes this folder one that can be read by itself, where results of this sweep may be.
+    ///
+    /// # Errors
+    /// An error of the operating system.
+    pub fn describe(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<(), Problem> {
+        if self.is_ready(manifest) { Ok(()) } else { self.begin(manifest, texts) }
     }
 
     /// Lock for writing the table.
@@ -204,7 +278,7 @@ impl Folder {
     /// # Errors
     /// Another process has it; an error of the operating system.
     pub fn claim_table(&self) -> Result<Held, Problem> {
-        self.lock(&self.path.join("table.lock"))?.ok_or_else(|| self.busy("writes the table".to_owned()))
+        self.lock(&self.path.join("table.lock"), false)?.ok_or_else(|| self.busy("writes the table".to_owned()))
     }
 
     /// Refuses a folder with tables or runs of another sweep.
@@ -212,7 +286,7 @@ impl Folder {
     /// # Errors
     /// The existing manifest.
     pub fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
-        if self.manifest()?.as_ref() == Some(manifest) {
+        if self.manifest()?.is_some_and(|there| there.is_of(manifest)) {
             return Ok(());
         }
         let mut results = self.files().into_iter().chain([self.runs(), self.manifest_path()]);
@@ -252,59 +326,42 @@ impl Folder {
         Ok(file)
     }
 
-    /// Refuses a folder with files but no manifest.
-    fn refuse_other_files(&self) -> Result<(), Problem> {
-        if self.manifest_path().exists() {
+    /// Refuses a folder with files but no manifest, and no rows of this sweep.
+    fn refuse_other_files(&self, manifest: &Manifest, restart: bool) -> Result<(), Problem> {
+        if self.manifest_path().exists() || (!restart && is_named_by_rows(self, manifest)?) {
             return Ok(());
         }
         let begun = partial_path(&self.manifest_path());
-        let ours = |name: &String| [LOCK, INPUTS, JOURNAL].contains(&name.as_str()) || begun.ends_with(name);
+        let own = [LOCK, WORK, INPUTS, JOURNAL, PARTS];
+        let ours = |name: &String| own.contains(&name.as_str()) || begun.ends_with(name);
         if names_in(&self.path)?.iter().all(ours) {
             return Ok(());
         }
         Err(Problem::NotOurs { folder: self.path.clone(), holds: self.holds })
     }
 
-    /// Refuses processes that split the study differently, which would compute the same samples twice.
-    fn refuse_others(&self, shard: Shard, all: bool) -> Result<(), Problem> {
-        let journal = self.journal();
-        if !journal.exists() {
-            return Ok(());
-        }
-        for name in names_in(&journal)?.iter().filter(|n| n.ends_with(".lock")) {
-            let Some(other) = Shard::of_file(name) else {
-                continue;
+    /// Takes a lock, unless another process holds it; a `shared` one may be held by many.
+    fn lock(&self, path: &Path, shared: bool) -> Result<Option<Held>, Problem> {
+        for _ in 0..MOST_TRIES {
+            let file = open_lock(path)?;
+            let locked = if shared { file.try_lock_shared() } else { file.try_lock() };
+            let unlocked = match locked {
+                // the process that had it has removed the file
+                Ok(()) if !is_at(&file, path) => continue,
+                Ok(()) => None,
+                Err(TryLockError::WouldBlock) => return Ok(None),
+                Err(TryLockError::Error(error)) => Some(error.to_string()),
             };
-            if (all || other.count != shard.count) && self.lock(&journal.join(name))?.is_none() {
-                return Err(self.busy(format!("computes shard {other}")));
-            }
+            return Ok(Some(Held { _files: vec![file], unlocked, mended: Vec::new() }));
         }
-        Ok(())
-    }
-
-    /// Takes a lock, unless another process holds it.
-    fn lock(&self, path: &Path) -> Result<Option<Held>, Problem> {
-        let file = open_lock(path)?;
-        let unlocked = match file.try_lock() {
-            Ok(()) => None,
-            Err(TryLockError::WouldBlock) => return Ok(None),
-            Err(TryLockError::Error(error)) => Some(error.to_string()),
-        };
-        Ok(Some(Held { _file: file, unlocked, mended: Vec::new() }))
-    }
-
-    /// Rewrites damaged copies; which ones.
-    fn mend_copies(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<Vec<PathBuf>, Problem> {
-        let copies = manifest.texts.iter().map(|text| self.path.join(&text.copy)).zip(texts);
-        let changed = copies.filter(|(path, bytes)| fs::read(path).ok().as_ref() != Some(*bytes));
-        changed.map(|(path, bytes)| Ok(write_whole(&path, Existing::Replace, bytes)?)).collect()
+        let unlocked = Some("a lock file does not keep its place".to_owned());
+        Ok(Some(Held { _files: Vec::new(), unlocked, mended: Vec::new() }))
     }
 
     /// Writes copies first and the manifest last: a folder with a manifest is complete.
     fn begin(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<(), Problem> {
-        for folder in [self.path.join(INPUTS), self.journal()] {
-            fs::create_dir_all(&folder).map_err(Problem::io("create", &folder))?;
-        }
+        let inputs = self.path.join(INPUTS);
+        fs::create_dir_all(&inputs).map_err(Problem::io("create", &inputs))?;
         for (text, bytes) in manifest.texts.iter().zip(texts) {
             write_whole(&self.path.join(&text.copy), Existing::Replace, bytes)?;
         }
@@ -324,12 +381,35 @@ impl Folder {
         }
     }
 
+    /// Removes what a finished block needs no more, without a look at others; its lock last.
+    ///
+    /// # Errors
+    /// An error of the operating system.
+    pub fn clear_block(&self, block: &Block) -> Result<(), Problem> {
+        let own = ["sums", "parquet", "lock"].map(|ending| self.beside_journal(block, ending));
+        let mut files = pieces_of(self, block).into_iter().chain(own);
+        Ok(files.try_for_each(|file| remove_if_there(&file))?)
+    }
+
+    /// Removes all journals, whose rows stand in the table; nobody else may be at work.
+    ///
+    /// # Errors
+    /// An error of the operating system.
+    pub fn clear_journals(&self) -> Result<(), Problem> {
+        let names = names_in(&self.journal())?;
+        let ours = |name: &&String| [".rows", ".sums", ".parquet", ".lock"].iter().any(|ending| name.ends_with(ending));
+        let mut files = names.iter().filter(ours).map(|name| self.journal().join(name));
+        Ok(files.try_for_each(|file| remove_if_there(&file))?)
+    }
+
     /// Removes the files of a sweep, and nothing else.
     fn clear(&self) -> Result<(), Problem> {
         let mut files = self.files();
         files.push(self.path.join(SUMS));
         for (folder, ending) in
-            [(JOURNAL, ".rows"), (JOURNAL, ".damaged"), (INPUTS, "")].iter().chain(self.holds.folders)
+            [(JOURNAL, ".rows"), (JOURNAL, ".damaged"), (JOURNAL, ".sums"), (JOURNAL, ".parquet"), (INPUTS, "")]
+                .iter()
+                .chain(self.holds.folders)
         {
             let folder = self.path.join(folder);
             if folder.exists() {

@@ -1,178 +1,40 @@
-//! The journal: every finished sample, in files that are only appended to.
+//! What a study has of finished samples: parts of its table, the table itself, and journals of blocks that are computed.
 //!
-//! A file contains rows of one process in the order in which they were finished, as JSON Lines with checksums: the
-//! first line names the sweep, each other line is a [`Row`]. An incomplete last row, left by a killed process or a full
-//! disk, has no line end and is not read; the sample is computed again.
+//! Of a sample that stands in two parts the first counts. Journals are read where no part is.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
-
+use super::block::Block;
+use super::census::Census;
 use super::checksums::Checksums;
 use super::finished::Finished;
 use super::folder::{Folder, names_in};
 use super::manifest::Manifest;
+use super::part::Part;
+use super::piece;
 use super::problem::Problem;
 use super::row::Row;
-use super::shard::Shard;
-use crate::base::{Failure, FileProblem, is_at};
+use crate::base::{Failure, FileProblem};
 
-/// Interval between syncs to disk.
-const SYNC_EVERY: Duration = Duration::from_secs(10);
-/// Number of samples read at a time.
+/// Number of samples read at a time from journals.
 const AT_ONCE: u64 = 2048;
 
-/// Largest number of rows of a journal file.
-const ROWS: usize = 1024;
-const BYTES: usize = 4 << 20;
-/// Size at which a journal file is closed, bytes.
-const LARGEST: u64 = 8 << 20;
-/// Longest first line, bytes.
-const MOST_OF_HEAD: u64 = 1 << 10;
-
-/// First line of a journal file.
-#[derive(Serialize, Deserialize)]
-struct Head {
-    /// SHA-256 of the manifest.
-    rows_of: String,
-}
-
-/// Text before the checksum of a line, between checksum and content, and at the end.
-const FRAME: [&str; 3] = ["{\"crc32\":\"", "\",\"is\":", "}\n"];
-
-/// A line of the journal, with the CRC-32 of its content.
-fn line_of(holds: &impl Serialize) -> serde_json::Result<String> {
-    let [before, between, behind] = FRAME;
-    let json = serde_json::to_string(holds)?;
-    Ok(format!("{before}{:08x}{between}{json}{behind}", crc32fast::hash(json.as_bytes())))
-}
-
-/// Content of a journal line; none if it is damaged.
-fn held_by<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
-    let [before, between, behind] = FRAME.map(str::as_bytes);
-    let (crc, rest) = line.strip_prefix(before)?.split_at_checked(8)?;
-    let json = rest.strip_prefix(between)?.strip_suffix(behind)?;
-    let whole = crc == format!("{:08x}", crc32fast::hash(json)).as_bytes();
-    serde_json::from_slice(json).ok().filter(|_| whole)
-}
-
-/// Appends the rows of one process.
-#[derive(Debug)]
-pub struct JournalWriter {
-    folder: PathBuf,
-    manifest_sha256: String,
-    shard: Shard,
-    /// Number of the next journal file.
-    next: u64,
-    open: Option<OpenPiece>,
-    synced: Instant,
-}
-
-#[derive(Debug)]
-struct OpenPiece {
-    path: PathBuf,
-    file: File,
-    rows: usize,
-    bytes: usize,
-}
-
-impl OpenPiece {
-    /// Appends a line in a single write.
-    fn append(&mut self, line: &impl Serialize) -> io::Result<()> {
-        let line = line_of(line)?;
-        self.file.write_all(line.as_bytes())?;
-        self.rows += 1;
-        self.bytes += line.len();
-        Ok(())
-    }
-
-    fn sync(&self) -> Result<(), Problem> {
-        self.file.sync_data().map_err(Problem::io("write", &self.path))?;
-        let gone = || Problem::File(FileProblem::Gone { path: self.path.clone() });
-        is_at(&self.file, &self.path).then_some(()).ok_or_else(gone)
-    }
-}
-
-impl JournalWriter {
-    /// Continues after the existing journal files of the shard, whose lock must be held.
-    ///
-    /// # Errors
-    /// An error of the operating system.
-    pub fn new(folder: &Folder, manifest_sha256: &str, shard: Shard) -> Result<Self, Problem> {
-        let folder = folder.journal();
-        let number = |name: &String| {
-            let number = name.strip_prefix(&shard.file_stem())?;
-            number.strip_prefix('.')?.strip_suffix(".rows")?.parse::<u64>().ok()
-        };
-        let last = names_in(&folder)?.iter().filter_map(number).max();
-        Ok(JournalWriter {
-            folder,
-            manifest_sha256: manifest_sha256.to_owned(),
-            shard,
-            next: last.map_or(0, |n| n + 1),
-            open: None,
-            synced: Instant::now(),
-        })
-    }
-
-    /// Appends a row.
-    ///
-    /// # Errors
-    /// An error of the operating system, e.g. because the disk is full; all rows before stand.
-    pub fn append(&mut self, row: &Row) -> Result<(), Problem> {
-        let mut piece = match self.open.take() {
-            Some(open) => open,
-            None => self.begin_piece()?,
-        };
-        // after a failed write the piece stays closed: nothing may follow a part of a row
-        piece.append(row).map_err(Problem::io("write", &piece.path))?;
-        let full = piece.rows > ROWS || piece.bytes >= BYTES;
-        if full || self.synced.elapsed() > SYNC_EVERY {
-            piece.sync()?;
-            self.synced = Instant::now();
-        }
-        self.open = (!full).then_some(piece);
-        Ok(())
-    }
-
-    /// Syncs everything to disk.
-    ///
-    /// # Errors
-    /// An error of the operating system.
-    pub fn close(self) -> Result<(), Problem> {
-        self.open.map_or(Ok(()), |piece| piece.sync())
-    }
-
-    fn begin_piece(&mut self) -> Result<OpenPiece, Problem> {
-        let path = self.folder.join(format!("{}.{:06}.rows", self.shard.file_stem(), self.next));
-        self.next += 1;
-        let begin = || {
-            let mut piece = OpenPiece { file: File::create_new(&path)?, path: path.clone(), rows: 0, bytes: 0 };
-            piece.append(&Head { rows_of: self.manifest_sha256.clone() })?;
-            Ok(piece)
-        };
-        begin().map_err(Problem::io("write", &path))
-    }
-}
-
-/// Index of the journals: positions of the finished rows, which stay on disk.
+/// Index of finished rows, which stay on disk.
 #[derive(Clone, Debug)]
 pub struct Journal {
-    manifest_sha256: String,
+    study: String,
     samples: u64,
+    /// By their first samples; of equal ones the longer first.
+    parts: Vec<Part>,
     pieces: Vec<Piece>,
     /// The finished samples.
     pub finished: Finished,
     /// Number of truncated rows, left by killed processes.
     pub torn: usize,
-    /// Shards that have started.
-    begun: BTreeSet<Shard>,
 }
 
 #[derive(Clone, Debug)]
@@ -182,33 +44,51 @@ struct Piece {
     samples: Range<u64>,
 }
 
-/// Whether a journal file of the folder refers to this manifest.
+/// Whether a file of the folder holds rows of this study, whatever its manifest says.
 ///
 /// # Errors
 /// An error of the operating system.
 pub fn is_named_by_rows(folder: &Folder, manifest: &Manifest) -> Result<bool, Problem> {
-    let (journal, sha256) = (folder.journal(), manifest.sha256().unwrap_or_default());
-    let names = if journal.exists() { names_in(&journal)? } else { Vec::new() };
-    let named = |name: &String| {
-        let mut line = Vec::new();
-        let file = File::open(journal.join(name)).map(|file| BufReader::new(file.take(MOST_OF_HEAD)));
-        let read = file.and_then(|mut file| file.read_until(b'\n', &mut line));
-        read.is_ok() && held_by(&line).is_some_and(|head: Head| head.rows_of == sha256)
-    };
-    Ok(names.iter().any(|name| name.ends_with(".rows") && named(name)))
+    let study = manifest.identity();
+    let is_part = |path: &PathBuf| matches!(Part::open(path, &study), Ok(Some(_)));
+    let mut pieces = paths_in(&folder.journal(), ".rows")?.into_iter();
+    Ok(is_part(&folder.parquet())
+        || pieces.any(|path| piece::is_of(&path, &study))
+        || paths_in(&folder.parts(), ".parquet")?.iter().any(is_part))
+}
+
+/// Files of a folder with this ending; none of a folder that is not there.
+fn paths_in(folder: &Path, ending: &str) -> Result<Vec<PathBuf>, Problem> {
+    let names = if folder.exists() { names_in(folder)? } else { Vec::new() };
+    Ok(names.iter().filter(|name| name.ends_with(ending)).map(|name| folder.join(name)).collect())
 }
 
 impl Journal {
-    /// Reads the journal of a claimed folder. Damaged files are set aside and returned: their samples are unfinished.
+    fn none(manifest: &Manifest) -> Self {
+        Journal {
+            study: manifest.identity(),
+            samples: manifest.samples,
+            parts: Vec::new(),
+            pieces: Vec::new(),
+            finished: Finished::none(manifest.samples),
+            torn: 0,
+        }
+    }
+
+    /// Reads with `read`. Damaged files of a claimed folder are set aside and returned: their samples are unfinished.
     ///
     /// # Errors
     /// An error of the operating system.
-    pub fn mend(folder: &Folder, manifest: (&str, u64), sums: &Checksums) -> Result<(Self, Vec<PathBuf>), Problem> {
+    pub fn mend(
+        folder: &Folder,
+        sums: &Checksums,
+        read: impl Fn() -> Result<Journal, Problem>,
+    ) -> Result<(Self, Vec<PathBuf>), Problem> {
         let mut aside: Vec<PathBuf> = sums.damaged();
-        aside.retain(|path| path.starts_with(folder.journal()));
+        aside.retain(|path| path.starts_with(folder.journal()) || *path == folder.parquet());
         aside.iter().try_for_each(|path| sums.put_aside(path))?;
         loop {
-            match Journal::read(std::slice::from_ref(folder), manifest.0, manifest.1) {
+            match read().and_then(Journal::checked) {
                 Err(Problem::Damaged { path, .. }) => {
                     sums.put_aside(&path)?;
                     aside.push(path);
@@ -218,118 +98,223 @@ impl Journal {
         }
     }
 
-    /// Adds checksums of the journal files of a shard that has ended.
+    /// The same after a look at all bytes of all parts.
+    fn checked(mut self) -> Result<Self, Problem> {
+        self.parts.iter_mut().try_for_each(Part::check)?;
+        Ok(self)
+    }
+
+    /// Adds checksums of the journal files of a block that has ended.
     ///
     /// # Errors
     /// An error of the operating system.
-    pub fn list(folder: &Folder, shard: Shard, sums: &Checksums) -> Result<(), Problem> {
-        let own = |name: &String| name.ends_with(".rows") && Shard::of_file(name) == Some(shard);
-        let pieces = names_in(&folder.journal())?.into_iter().filter(own).map(|name| folder.journal().join(name));
+    pub fn list(folder: &Folder, block: &Block, sums: &Checksums) -> Result<(), Problem> {
+        let pieces = piece::pieces_of(folder, block).into_iter();
         pieces.filter(|piece| !sums.holds(piece)).try_for_each(|piece| sums.add(&piece))
     }
 
-    /// Reads the journals of folders that contain parts of one sweep of `samples`.
+    /// Reads what there is of a block alone. The files of its neighbours are not touched.
     ///
     /// # Errors
-    /// An error of the operating system; a file that is no piece, or of another sweep.
-    pub fn read(folders: &[Folder], manifest_sha256: &str, samples: u64) -> Result<Self, Problem> {
-        let mut journal = Journal {
-            manifest_sha256: manifest_sha256.to_owned(),
-            samples,
-            pieces: Vec::new(),
-            finished: Finished::none(samples),
-            torn: 0,
-            begun: BTreeSet::new(),
-        };
-        for folder in folders {
-            let folder = folder.journal();
-            for name in names_in(&folder)? {
-                journal.begun.extend(Shard::of_file(&name));
-                if name.ends_with(".rows") {
-                    journal.look_through(folder.join(name))?;
-                }
-            }
-        }
-        journal.pieces.sort_by_key(|p| p.samples.start);
-        Ok(journal)
+    /// As [`Journal::read`].
+    pub fn of_block(folder: &Folder, manifest: &Manifest, block: &Block) -> Result<Self, Problem> {
+        let mut journal = Journal::none(manifest);
+        journal.add_part(&folder.part(block))?;
+        piece::pieces_of(folder, block).into_iter().try_for_each(|path| journal.add_piece(path))?;
+        Ok(journal.in_order())
     }
 
-    fn look_through(&mut self, path: PathBuf) -> Result<(), Problem> {
-        let (rows, torn) = self.piece(&path)?;
+    /// Reads folders that contain parts of one sweep: the table, if it has all samples, or else everything.
+    ///
+    /// # Errors
+    /// An error of the operating system; a file that is no part or piece, or of another sweep.
+    pub fn read(folders: &[Folder], manifest: &Manifest) -> Result<Self, Problem> {
+        let mut journal = Journal::none(manifest);
+        journal.add_tables(folders, manifest)?;
+        if !journal.finished.is_full() {
+            journal.add_parts(folders)?;
+        }
+        Ok(journal.in_order())
+    }
+
+    /// As [`Journal::read`], with the table only where no part is: to make it again.
+    ///
+    /// # Errors
+    /// As [`Journal::read`].
+    pub fn read_parts(folders: &[Folder], manifest: &Manifest) -> Result<Self, Problem> {
+        let mut journal = Journal::none(manifest);
+        journal.add_parts(folders)?;
+        if !journal.finished.is_full() {
+            journal.add_tables(folders, manifest)?;
+        }
+        Ok(journal.in_order())
+    }
+
+    /// Pieces before parts: a block that ends meanwhile has its rows in one of the two.
+    fn add_parts(&mut self, folders: &[Folder]) -> Result<(), Problem> {
+        for folder in folders {
+            paths_in(&folder.journal(), ".rows")?.into_iter().try_for_each(|path| self.add_piece(path))?;
+        }
+        for folder in folders {
+            let parts = paths_in(&folder.parts(), ".parquet")?;
+            parts.iter().try_for_each(|path| self.add_part(path))?;
+        }
+        Ok(())
+    }
+
+    /// Tables of form 2 describe no part, and their journals hold the same rows.
+    fn add_tables(&mut self, folders: &[Folder], manifest: &Manifest) -> Result<(), Problem> {
+        let mut tables = folders.iter().map(Folder::parquet).filter(|_| manifest.form > 2);
+        tables.try_for_each(|path| self.add_part(&path))
+    }
+
+    fn add_part(&mut self, path: &Path) -> Result<(), Problem> {
+        if let Some(part) = Part::open(path, &self.study)? {
+            if part.about.last >= self.samples {
+                let found = format!("has samples beyond the study's {}", self.samples);
+                return Err(Problem::Damaged { path: path.to_owned(), found });
+            }
+            self.finished.add(part.about.samples());
+            self.parts.push(part);
+        }
+        Ok(())
+    }
+
+    fn add_piece(&mut self, path: PathBuf) -> Result<(), Problem> {
+        let (rows, torn) = match piece::read(&path, &self.study, self.samples) {
+            // its block has ended meanwhile
+            Err(problem) if is_gone(&problem) => return Ok(()),
+            read => read?,
+        };
         self.torn += usize::from(torn);
         let indices = || rows.iter().map(|row| row.index);
-        indices().for_each(|index| self.finished.add(index));
+        indices().for_each(|index| self.finished.add(index..index + 1));
         if let (Some(least), Some(greatest)) = (indices().min(), indices().max()) {
             self.pieces.push(Piece { path, samples: least..greatest + 1 });
         }
         Ok(())
     }
 
-    /// Rows of a journal file, and whether one was truncated.
-    fn piece(&self, path: &Path) -> Result<(Vec<Row>, bool), Problem> {
-        let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
-        if fs::metadata(path).is_ok_and(|file| file.len() > LARGEST || !file.is_file()) {
-            return Err(damaged("is too large for a piece of a journal, or not a file"));
-        }
-        let bytes = fs::read(path).map_err(Problem::io("read", path))?;
-        let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
-        let mut lines = bytes[..end].split_inclusive(|byte| *byte == b'\n');
-        let torn = end < bytes.len();
-        let Some(head) = lines.next() else {
-            return Ok((Vec::new(), torn));
-        };
-        match held_by::<Head>(head) {
-            None => return Err(damaged("is not a piece of a journal")),
-            Some(head) if head.rows_of != self.manifest_sha256 => {
-                return Err(damaged("is a piece of another sweep's journal"));
-            }
-            Some(_) => {}
-        }
-        let row = |(i, line)| {
-            let row = held_by(line).filter(|row: &Row| row.index < self.samples);
-            row.ok_or_else(|| damaged(&format!("has a row of another sweep in line {}", i + 2)))
-        };
-        Ok((lines.enumerate().map(row).collect::<Result<_, _>>()?, torn))
+    fn in_order(mut self) -> Self {
+        self.pieces.sort_by_key(|piece| piece.samples.start);
+        self.parts.sort_by_key(|part| (part.about.first, Reverse(part.about.last)));
+        let mut end = 0;
+        // one whose samples all stand in those before is not read
+        self.parts.retain(|part| {
+            let counts = part.about.samples().end > end;
+            end = end.max(part.about.samples().end);
+            counts
+        });
+        self
     }
 
-    /// Shards with missing samples, and how many, as far as the files show the number of shards.
-    pub fn lacking(&self, samples: u64) -> Vec<(Shard, u64)> {
-        let counts: BTreeSet<u64> = self.begun.iter().map(|s| s.count).collect();
-        let Some(count) = counts.last().filter(|_| counts.len() == 1) else {
-            return Vec::new();
-        };
-        let lack = |shard: Shard| {
-            let range = shard.range(samples);
-            (shard, range.end - range.start - self.finished.count(range.clone()))
-        };
-        let all = Shard::all(*count).map(lack);
-        all.filter(|(_, missing)| *missing > 0).collect()
+    /// The only part, if it has all rows that are there.
+    pub fn only_part(&self) -> Option<&Part> {
+        match (&self.parts[..], &self.pieces[..]) {
+            ([part], []) => Some(part),
+            ([part], pieces) => pieces.iter().all(|p| contains(&part.about.samples(), &p.samples)).then_some(part),
+            _ => None,
+        }
+    }
+
+    /// Hashes of whole runs that parts in a folder have kept.
+    pub fn runs_in(&self, folder: &Folder) -> impl Iterator<Item = (&String, &String)> {
+        let parts = self.parts.iter().filter(|part| part.path.starts_with(&folder.path));
+        parts.flat_map(|part| &part.about.runs)
+    }
+
+    /// Outcomes of the finished samples and their wall time in s: from the descriptions of parts where these count as a whole.
+    ///
+    /// # Errors
+    /// As [`Journal::each_row`].
+    pub fn census(&self) -> Result<(Census, f64), Failure> {
+        let (mut census, mut spent_s) = (Census { planned: self.samples, ..Census::default() }, 0.0);
+        for (part, samples) in self.stretches() {
+            match part {
+                Some(part) if part.about.samples() == samples => {
+                    census.add(&part.about.census);
+                    spent_s += part.about.wall_time_s;
+                }
+                part => self.each_row_of(part, &samples, &mut |row| {
+                    census.see(&row);
+                    spent_s += row.wall_time_s;
+                    Ok(())
+                })?,
+            }
+        }
+        Ok((census, spent_s))
     }
 
     /// Passes all rows on in the order of their samples, read in portions of bounded memory. Duplicate results of a
-    /// sample must agree.
+    /// sample in journals must agree.
     ///
     /// # Errors
-    /// Results that disagree; an error of the operating system; what `see` says.
+    /// Results that disagree; a part that was changed; an error of the operating system; what `see` says.
     pub fn each_row(&self, mut see: impl FnMut(Row) -> Result<(), Failure>) -> Result<(), Failure> {
-        let mut starts = (0..self.samples).step_by(AT_ONCE as usize);
-        starts.try_for_each(|start| self.rows(start..start + AT_ONCE)?.into_iter().try_for_each(&mut see))
+        let mut stretches = self.stretches().into_iter();
+        stretches.try_for_each(|(part, samples)| self.each_row_of(part, &samples, &mut see))
     }
 
     /// Rows of the finished samples of a range, in order.
     ///
     /// # Errors
     /// As [`Journal::each_row`].
-    pub fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
+    pub fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Failure> {
+        let mut rows = Vec::new();
+        for (part, samples) in self.stretches() {
+            let samples = samples.start.max(range.start)..samples.end.min(range.end);
+            self.each_row_of(part, &samples, &mut |row| {
+                rows.push(row);
+                Ok(())
+            })?;
+        }
+        Ok(rows)
+    }
+
+    /// All samples in order: those of a part, and those between parts, of which journals may have some.
+    fn stretches(&self) -> Vec<(Option<&Part>, Range<u64>)> {
+        let (mut stretches, mut next) = (Vec::new(), 0);
+        for part in &self.parts {
+            let samples = part.about.samples();
+            let begin = samples.start.max(next);
+            stretches.push((None, next..begin));
+            stretches.push((Some(part), begin..samples.end));
+            next = samples.end;
+        }
+        stretches.push((None, next..self.samples));
+        stretches.retain(|(_, samples)| !samples.is_empty());
+        stretches
+    }
+
+    fn each_row_of(
+        &self,
+        part: Option<&Part>,
+        samples: &Range<u64>,
+        see: &mut impl FnMut(Row) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        if samples.is_empty() {
+            return Ok(());
+        }
+        if let Some(part) = part {
+            return part.each_row(samples, see);
+        }
+        let mut starts = samples.clone().step_by(AT_ONCE as usize);
+        starts.try_for_each(|start| {
+            let portion = start..samples.end.min(start + AT_ONCE);
+            self.rows_of_pieces(portion)?.into_iter().try_for_each(&mut *see)
+        })
+    }
+
+    fn rows_of_pieces(&self, range: Range<u64>) -> Result<Vec<Row>, Failure> {
         let mut found: BTreeMap<u64, (Row, &Path)> = BTreeMap::new();
         let overlapping = |p: &&Piece| p.samples.start < range.end && range.start < p.samples.end;
         for piece in self.pieces.iter().filter(overlapping) {
-            for row in self.piece(&piece.path)?.0.into_iter().filter(|row| range.contains(&row.index)) {
+            for row in self.rows_of(piece, &range)?.into_iter().filter(|row| range.contains(&row.index)) {
                 let index = row.index;
                 match found.get(&index) {
                     Some((there, first)) if !there.agrees(&row) => {
                         let (first, second) = (first.to_path_buf(), piece.path.clone());
-                        return Err(Problem::Disagree { index, first, second });
+                        return Err(Problem::Disagree { index, first, second }.into());
                     }
                     Some(_) => {}
                     None => _ = found.insert(index, (row, &piece.path)),
@@ -338,43 +323,127 @@ impl Journal {
         }
         Ok(found.into_values().map(|(row, _)| row).collect())
     }
+
+    /// Rows of a piece; if its block has ended meanwhile, the same rows from what that has become.
+    fn rows_of(&self, piece: &Piece, range: &Range<u64>) -> Result<Vec<Row>, Failure> {
+        match piece::read(&piece.path, &self.study, self.samples) {
+            Err(problem) if is_gone(&problem) => {
+                let mut rows = Vec::new();
+                let part = self.successor(piece)?.ok_or(problem)?;
+                part.each_row(range, &mut |row| {
+                    rows.push(row);
+                    Ok(())
+                })?;
+                Ok(rows)
+            }
+            read => Ok(read?.0),
+        }
+    }
+
+    /// The part, or the table, that a journal file has become.
+    fn successor(&self, piece: &Piece) -> Result<Option<Part>, Problem> {
+        let folder = piece.path.parent().and_then(Path::parent).map(Folder::at);
+        let block = piece.path.file_name().and_then(|name| Block::of_file(&name.to_string_lossy()));
+        let (Some(folder), Some(block)) = (folder, block) else { return Ok(None) };
+        match Part::open(&folder.part(&block), &self.study)? {
+            None => Part::open(&folder.parquet(), &self.study),
+            part => Ok(part),
+        }
+    }
+}
+
+fn contains(outer: &Range<u64>, inner: &Range<u64>) -> bool {
+    outer.start <= inner.start && inner.end <= outer.end
+}
+
+fn is_gone(problem: &Problem) -> bool {
+    matches!(problem, Problem::File(FileProblem::Io { source, .. }) if source.kind() == ErrorKind::NotFound)
 }
 
 #[cfg(test)]
 mod tests {
     use std::fs;
 
+    use super::super::part::About;
+    use super::super::piece::JournalWriter;
+    use super::super::table::StudyTable;
     use super::*;
+    use crate::base::Existing;
+    use crate::files::study_folder::manifest::{Column, Role};
     use crate::files::study_folder::row::tests::row;
+    use occupant_files::table::Form;
 
-    const SHA: &str = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
-
-    /// A folder whose journal is one piece of four rows, and the piece.
-    fn journal() -> (tempfile::TempDir, Folder, PathBuf) {
-        let there = tempfile::tempdir().unwrap();
-        let folder = Folder::at(there.path());
-        fs::create_dir(folder.journal()).unwrap();
-        let mut writer = JournalWriter::new(&folder, SHA, Shard::WHOLE).unwrap();
-        (0..4).for_each(|i| writer.append(&row(i)).unwrap());
-        writer.close().unwrap();
-        let piece = folder.journal().join("shard-0001-of-0001.000000.rows");
-        (there, folder, piece)
+    fn manifest(samples: u64) -> Manifest {
+        let mut manifest = Manifest::new("occupant 1".to_owned(), String::new(), samples, Vec::new());
+        manifest.study = "study".to_owned();
+        for (name, role) in [("a", Role::Figure), ("b", Role::Figure), ("c", Role::InputText), ("d", Role::Figure)] {
+            manifest.columns.push(Column { name: name.to_owned(), unit: "1".to_owned(), role });
+        }
+        manifest.columns.sort_by_key(|column| column.role == Role::Figure);
+        manifest
     }
 
-    fn read(folder: &Folder, sha256: &str) -> Result<Journal, String> {
-        Journal::read(std::slice::from_ref(folder), sha256, 4).map_err(|e| e.to_string())
+    /// A row whose cells fit the columns.
+    fn fitting(index: u64) -> Row {
+        let mut row = row(index);
+        row.cells.swap(0, 2);
+        row
+    }
+
+    fn folder() -> (tempfile::TempDir, Folder) {
+        let there = tempfile::tempdir().unwrap();
+        let folder = Folder::at(there.path());
+        [folder.journal(), folder.parts()].iter().for_each(|path| fs::create_dir(path).unwrap());
+        (there, folder)
+    }
+
+    fn block(samples: Range<u64>) -> Block {
+        Block::new(samples).unwrap()
+    }
+
+    fn journal(folder: &Folder, manifest: &Manifest, samples: Range<u64>) -> PathBuf {
+        let mut writer = JournalWriter::new(folder, &manifest.identity(), &block(samples.clone()));
+        samples.clone().for_each(|i| writer.append(&fitting(i)).unwrap());
+        writer.close().unwrap();
+        piece::pieces_of(folder, &block(samples)).pop().unwrap()
+    }
+
+    fn part(path: PathBuf, manifest: &Manifest, samples: Range<u64>) {
+        let mut table = StudyTable::create([(path, Form::Parquet)], Existing::Replace, manifest).unwrap();
+        let mut about = About::new(manifest, &samples);
+        for index in samples {
+            about.see(&fitting(index));
+            table.row(&fitting(index)).unwrap();
+        }
+        table.publish_part(&about).unwrap();
+    }
+
+    fn read(folder: &Folder, manifest: &Manifest) -> Result<Journal, String> {
+        Journal::read(std::slice::from_ref(folder), manifest).map_err(|e| e.to_string())
+    }
+
+    fn rows(journal: &Journal) -> Vec<Row> {
+        let mut rows = Vec::new();
+        let read = journal.each_row(|row| {
+            rows.push(row);
+            Ok(())
+        });
+        read.unwrap();
+        rows
     }
 
     #[test]
     fn cut_off_anywhere_a_piece_holds_the_rows_before() {
-        let (_there, folder, piece) = journal();
+        let (_there, folder) = folder();
+        let manifest = manifest(4);
+        let piece = journal(&folder, &manifest, 0..4);
         let bytes = fs::read(&piece).unwrap();
         let mut seen = 0;
         for end in 0..bytes.len() {
             fs::write(&piece, &bytes[..end]).unwrap();
-            let found = read(&folder, SHA).unwrap();
+            let found = read(&folder, &manifest).unwrap();
             let rows = found.rows(0..4).unwrap();
-            let expected: Vec<Row> = (0..rows.len() as u64).map(row).collect();
+            let expected: Vec<Row> = (0..rows.len() as u64).map(fitting).collect();
             assert_eq!(rows, expected);
             assert!(rows.len() >= seen && rows.len() < 4);
             seen = rows.len();
@@ -386,14 +455,66 @@ mod tests {
 
     #[test]
     fn a_damaged_row_and_what_is_no_piece_are_refused() {
-        let (_there, folder, piece) = journal();
-        assert!(read(&folder, &SHA.replace('0', "f")).unwrap_err().contains("another sweep's"));
+        let (_there, folder) = folder();
+        let manifest = manifest(4);
+        let piece = journal(&folder, &manifest, 0..4);
+        let mut other = manifest.clone();
+        other.study = "other".to_owned();
+        assert!(read(&folder, &other).unwrap_err().contains("another sweep's"));
         let text = fs::read_to_string(&piece).unwrap();
         fs::write(&piece, text.replacen("\"index\":1", "\"index\":9", 1)).unwrap();
-        assert!(read(&folder, SHA).unwrap_err().contains("of another sweep in line 3"));
+        assert!(read(&folder, &manifest).unwrap_err().contains("of another sweep in line 3"));
         fs::write(&piece, text.replacen(":0.25", ":0.26", 1)).unwrap();
-        assert!(read(&folder, SHA).unwrap_err().contains("in line 2"), "a digit that is another one is noticed");
+        assert!(read(&folder, &manifest).unwrap_err().contains("in line 2"), "a digit that is another one is noticed");
         fs::write(&piece, "occupant rows 1\nhello\n").unwrap();
-        assert!(read(&folder, SHA).unwrap_err().contains("not a piece of a journal"));
+        assert!(read(&folder, &manifest).unwrap_err().contains("not a piece of a journal"));
+    }
+
+    #[test]
+    fn parts_that_overlap_gaps_and_journals_are_one_row_of_samples() {
+        let (_there, folder) = folder();
+        let manifest = manifest(100);
+        for samples in [0..30, 10..20, 25..40, 60..70, 60..65] {
+            part(folder.part(&block(samples.clone())), &manifest, samples);
+        }
+        journal(&folder, &manifest, 38..50);
+        journal(&folder, &manifest, 69..75);
+        let found = read(&folder, &manifest).unwrap();
+        let there: Vec<u64> = (0..50).chain(60..75).collect();
+        assert_eq!(found.finished.gaps(0..100), [50..60, 75..100]);
+        assert_eq!(rows(&found), there.iter().map(|i| fitting(*i)).collect::<Vec<_>>());
+        assert_eq!(
+            found.rows(39..62).unwrap(),
+            [39..50, 60..62].into_iter().flatten().map(fitting).collect::<Vec<_>>()
+        );
+        let (census, spent_s) = found.census().unwrap();
+        let mut counted = Census { planned: 100, ..Census::default() };
+        rows(&found).iter().for_each(|row| _ = counted.see(row));
+        assert_eq!((census, spent_s), (counted, 0.25 * there.len() as f64));
+        assert!(found.only_part().is_none());
+    }
+
+    #[test]
+    fn a_whole_table_is_read_alone_and_left_out_to_make_it_again() {
+        let (_there, folder) = folder();
+        let manifest = manifest(20);
+        part(folder.parquet(), &manifest, 0..20);
+        fs::write(folder.part(&block(0..20)), "garbage").unwrap();
+        let found = read(&folder, &manifest).unwrap();
+        assert_eq!(found.only_part().unwrap().path, folder.parquet());
+        assert_eq!(rows(&found).len(), 20);
+        let again = Journal::read_parts(std::slice::from_ref(&folder), &manifest);
+        assert!(again.unwrap_err().to_string().contains("was changed after it was written"));
+    }
+
+    #[test]
+    fn a_block_that_ends_while_it_is_read_is_read_from_its_part() {
+        let (_there, folder) = folder();
+        let manifest = manifest(20);
+        let piece = journal(&folder, &manifest, 5..9);
+        let found = read(&folder, &manifest).unwrap();
+        part(folder.part(&block(5..9)), &manifest, 5..9);
+        fs::remove_file(piece).unwrap();
+        assert_eq!(rows(&found), (5..9).map(fitting).collect::<Vec<_>>());
     }
 }

@@ -1,14 +1,15 @@
 //! The manifest of a folder of results: study, scenario, changes, program, columns.
 //!
-//! It is written once, when the sweep begins. A process with a different manifest does not touch the folder.
+//! It is written when the sweep begins, and again when the study gets more samples. A process with another study does not touch
+//! the folder: [`Manifest::identity`] tells studies apart, whatever comments and white space they have.
 
 use serde::{Deserialize, Serialize};
 
 use super::texts::NamedBy;
-use crate::base::sha256;
+use crate::base::{build, sha256};
 
 /// Version of the folder format.
-const FORM: u32 = 2;
+const FORM: u32 = 3;
 
 /// Identity of a sweep, independent of date, machine and number of threads.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,6 +18,12 @@ pub struct Manifest {
     pub form: u32,
     /// The program and its version.
     pub program: String,
+    /// Its build; empty in a folder of form 2.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub build: String,
+    /// Digest of all that decides on the first samples; empty if that is the manifest as it is.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub study: String,
     /// Title of the study.
     pub title: String,
     /// Number of samples.
@@ -27,6 +34,9 @@ pub struct Manifest {
     pub texts: Vec<Text>,
     /// Columns of the table between `index` and `status`, and between `reason` and `wall_time_s`.
     pub columns: Vec<Column>,
+    /// Why the first samples would be others if there were more; none of a design that can be extended.
+    #[serde(skip)]
+    pub fixed: Option<&'static str>,
 }
 
 /// A file that the sweep was made from.
@@ -68,7 +78,18 @@ pub enum Role {
 impl Manifest {
     /// The manifest of a sweep with this program.
     pub fn new(program: String, title: String, samples: u64, overrides: Vec<String>) -> Self {
-        Manifest { form: FORM, program, title, samples, overrides, texts: Vec::new(), columns: Vec::new() }
+        Manifest {
+            form: FORM,
+            program,
+            build: build().to_owned(),
+            study: String::new(),
+            title,
+            samples,
+            overrides,
+            texts: Vec::new(),
+            columns: Vec::new(),
+            fixed: None,
+        }
     }
 
     /// Its bytes.
@@ -81,12 +102,27 @@ impl Manifest {
         Ok(bytes)
     }
 
-    /// SHA-256 of the manifest, included in every journal file.
-    ///
-    /// # Errors
-    /// As [`Manifest::to_bytes`].
-    pub fn sha256(&self) -> serde_json::Result<String> {
-        self.to_bytes().map(|bytes| sha256(&bytes))
+    /// SHA-256 of what decides on the rows, included in every journal file and part.
+    pub fn identity(&self) -> String {
+        let decides = (self.form, &self.program, &self.build, &self.study, &self.overrides, &self.columns);
+        let bytes = if self.study.is_empty() { self.to_bytes() } else { serde_json::to_vec(&decides) };
+        // neither can fail: texts and whole numbers
+        sha256(&bytes.unwrap_or_default())
+    }
+
+    /// Whether both are of one study, of which they may have different numbers of samples.
+    pub fn is_of_study(&self, other: &Manifest) -> bool {
+        self.identity() == other.identity()
+    }
+
+    /// Whether both are of the same rows: one study, as many samples, the same tables.
+    pub fn is_of(&self, other: &Manifest) -> bool {
+        self.samples == other.samples && self.is_of_study(other) && self.tables().eq(other.tables())
+    }
+
+    /// Texts besides study and scenario, of which every byte counts.
+    fn tables(&self) -> impl Iterator<Item = &Text> {
+        self.texts.iter().skip(2)
     }
 
     /// Index of a measure's column.
@@ -109,7 +145,13 @@ impl Manifest {
         };
         differ("form of the folder", self.form.to_string(), here.form.to_string());
         differ("program", self.program.clone(), here.program.clone());
-        differ("samples", self.samples.to_string(), here.samples.to_string());
+        differ("build of the program", known(&self.build), known(&here.build));
+        let because = match here.fixed {
+            Some(why) if here.samples != self.samples => format!(" ({why})"),
+            _ if here.samples < self.samples => " (the folder already has more)".to_owned(),
+            _ => String::new(),
+        };
+        differ("samples", self.samples.to_string(), format!("{}{because}", here.samples));
         let listed = |overrides: &[String]| match overrides {
             [] => "none".to_owned(),
             some => some.join(", "),
@@ -127,6 +169,11 @@ impl Manifest {
         }
         found
     }
+}
+
+/// A build in words.
+fn known(build: &str) -> String {
+    if build.is_empty() { "unknown" } else { build }.to_owned()
 }
 
 /// The first line in which two texts differ.
@@ -182,6 +229,6 @@ mod tests {
         let m = manifest("x");
         let read: Manifest = serde_json::from_slice(&m.to_bytes().unwrap()).unwrap();
         assert_eq!(read, m);
-        assert_eq!(read.sha256().unwrap(), m.sha256().unwrap());
+        assert!(read.is_of(&m));
     }
 }

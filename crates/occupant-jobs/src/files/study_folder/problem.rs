@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::finished::ranges_text;
 use super::folder::Holds;
-use super::shard::Shard;
 use crate::base::{Failure, FileProblem};
 
-/// Largest number of ranges or shards named.
+/// Largest number of ranges named.
 const SHOWN: usize = 20;
 
 /// A problem of a result folder, with its remedy if known.
@@ -64,25 +63,23 @@ pub enum Problem {
         path: PathBuf,
     },
     /// Another process is working in the folder.
-    #[error("another process is working in {}: it {doing}\n = help: wait for it, or choose another folder", .folder.display())]
+    #[error("another process is working in {}: it {doing}\n = help: wait for it (`occupant sweep --wait` does), or choose another folder", .folder.display())]
     Busy {
         /// The folder.
         folder: PathBuf,
         /// Its work.
         doing: String,
     },
-    /// Samples are unfinished; shards that have started, and their missing samples.
+    /// Samples are unfinished.
     #[error(
-        "{}\n = help: run the same `occupant sweep` command again to resume",
-        incomplete(.gaps, .samples, .shards)
+        "{} of {samples} samples are missing: {}\n = help: run the same `occupant sweep` command again to resume, or with --range {}",
+        missing(.gaps), ranges_text(.gaps, SHOWN), .gaps.first().map_or(String::new(), |gap| format!("{}..{}", gap.start, gap.end))
     )]
     Incomplete {
         /// Missing runs.
         gaps: Vec<Range<u64>>,
         /// Number of samples expected.
         samples: u64,
-        /// Shards, and the number of missing samples of each.
-        shards: Vec<(Shard, u64)>,
     },
     /// Two results of one sample disagree.
     #[error(
@@ -106,17 +103,8 @@ impl Problem {
     }
 }
 
-/// Missing samples, and the shards that have started and lack samples.
-fn incomplete(gaps: &[Range<u64>], samples: &u64, shards: &[(Shard, u64)]) -> String {
-    let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
-    let mut text = format!("{missing} of {samples} samples are missing: {}", ranges_text(gaps, SHOWN));
-    for (shard, missing) in shards.iter().take(SHOWN) {
-        text += &format!("\n   shard {shard}: {missing}");
-    }
-    if shards.len() > SHOWN {
-        text += &format!("\n   and {} more shards", shards.len() - SHOWN);
-    }
-    text
+fn missing(gaps: &[Range<u64>]) -> u64 {
+    gaps.iter().map(|gap| gap.end - gap.start).sum()
 }
 
 impl From<Problem> for Failure {
@@ -124,6 +112,7 @@ impl From<Problem> for Failure {
         let message = format!("error: {problem}");
         match problem {
             Problem::Incomplete { .. } | Problem::Unmended { .. } => Failure::BrokeOff(message),
+            Problem::Busy { .. } => Failure::Busy(message),
             Problem::File(file) if file.broke_off() => Failure::BrokeOff(message),
             _ => Failure::CouldNotRun(message),
         }

@@ -22,6 +22,12 @@ pub enum Status {
 }
 
 impl Status {
+    /// The status with a word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        let all = [Status::Completed, Status::Failed, Status::Refused, Status::Broken];
+        all.into_iter().find(|status| status.word() == word)
+    }
+
     /// The word in the table.
     pub fn word(self) -> &'static str {
         match self {
@@ -32,6 +38,9 @@ impl Status {
         }
     }
 }
+
+/// Number of cells of a row besides inputs and figures.
+const FRAME: usize = 6;
 
 /// A row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,6 +73,23 @@ impl Row {
         };
         let kernel = run.ran.as_ref().map_or("", |ran| ran.kernel.name()).to_owned();
         Row { index: run.index, status, reason, caveats: String::new(), cells, wall_time_s: run.wall_time_s, kernel }
+    }
+
+    /// The row of a table with these cells, of which `inputs` come before the status; none if they are no row.
+    pub fn from_cells(cells: Vec<Cell>, inputs: usize) -> Option<Row> {
+        let words = |cell: Cell| match cell {
+            Cell::Text(text) => String::from(text),
+            Cell::Absent | Cell::Number(_) => String::new(),
+        };
+        let index = cells.first()?.number()? as u64;
+        let figures = cells.len().checked_sub(inputs + FRAME)?;
+        let mut cells = cells.into_iter().skip(1);
+        let mut own: Vec<Cell> = cells.by_ref().take(inputs).collect();
+        let status = Status::of_word(&words(cells.next()?))?;
+        let [reason, caveats] = [words(cells.next()?), words(cells.next()?)];
+        own.extend(cells.by_ref().take(figures));
+        let wall_time_s = cells.next()?.number()?;
+        Some(Row { index, status, reason, caveats, cells: own, wall_time_s, kernel: words(cells.next()?) })
     }
 
     /// Adds the caveats of its run.

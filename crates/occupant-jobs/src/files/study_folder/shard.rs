@@ -7,7 +7,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Shard {
     number: u64,
-    pub(super) count: u64,
+    count: u64,
 }
 
 impl Shard {
@@ -70,36 +70,20 @@ impl Shard {
         Ok(Some((shard, "SLURM_ARRAY_TASK_ID")))
     }
 
-    /// All parts of `count`.
-    pub fn all(count: u64) -> impl Iterator<Item = Shard> {
-        (1..=count).map(move |number| Shard { number, count })
-    }
-
     /// Whether it is the whole study.
     pub fn is_whole(self) -> bool {
         self.count == 1
     }
 
-    /// The samples of this part, of `samples` in total: an even, contiguous share.
-    pub fn range(self, samples: u64) -> Range<u64> {
+    /// The samples of this part of `samples`: an even, contiguous share.
+    pub fn range(self, samples: &Range<u64>) -> Range<u64> {
+        let count = samples.end.saturating_sub(samples.start);
         let border = |part: u64| {
-            let at = u128::from(samples) * u128::from(part) / u128::from(self.count);
-            // no greater than `samples`
-            u64::try_from(at).unwrap_or(samples)
+            let at = u128::from(count) * u128::from(part) / u128::from(self.count);
+            // no greater than `count`
+            samples.start + u64::try_from(at).unwrap_or(count)
         };
         border(self.number - 1)..border(self.number)
-    }
-
-    /// First part of its file names.
-    pub fn file_stem(self) -> String {
-        format!("shard-{:04}-of-{:04}", self.number, self.count)
-    }
-
-    /// The shard of a file, by its name.
-    pub fn of_file(name: &str) -> Option<Shard> {
-        let (number, rest) = name.strip_prefix("shard-")?.split_once("-of-")?;
-        let count = rest.split_once('.')?.0;
-        Shard::new(number.parse().ok()?, count.parse().ok()?).ok()
     }
 }
 
@@ -116,23 +100,15 @@ mod tests {
     #[test]
     fn shards_cover_every_sample_once() {
         for (samples, count) in [(0, 3), (1, 3), (10, 3), (7, 7), (5, 8), (1_000_000, 48)] {
-            let mut next = 0;
+            let mut next = 7;
             for number in 1..=count {
-                let range = Shard { number, count }.range(samples);
+                let range = Shard { number, count }.range(&(7..7 + samples));
                 assert_eq!(range.start, next);
                 assert!(range.end - range.start <= samples / count + 1);
                 next = range.end;
             }
-            assert_eq!(next, samples);
+            assert_eq!(next, 7 + samples);
         }
-    }
-
-    #[test]
-    fn a_file_name_tells_its_shard() {
-        let shard = Shard::parse(" 3/12").unwrap();
-        let name = format!("{}.000001.rows", shard.file_stem());
-        assert_eq!(Shard::of_file(&name), Some(shard));
-        assert_eq!(Shard::of_file("notes.txt"), None);
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! Rows of a study as tables: Parquet for pyarrow, DuckDB and the like, other forms where asked for.
 //!
 //! `index`, the inputs, `status`, `reason`, `caveats`, the figures, `wall_time_s`, `kernel`. The metadata of a Parquet file hold the
-//! manifest (`occupant.sweep`) and the units (`occupant.units`: a JSON object, column → unit).
+//! manifest (`occupant.sweep`) and the units (`occupant.units`: a JSON object, column → unit); those of a part of a study what it is
+//! a part of ([`super::part`]).
 
 use std::path::PathBuf;
 
 use super::manifest::{Column, Manifest, Role};
+use super::part::{ABOUT, About, seal};
 use super::row::Row;
 use crate::base::{Existing, Failure};
 use occupant_files::table::{Cell, Form, Kind, TableFile};
@@ -58,6 +60,23 @@ impl StudyTable {
         let work = [Cell::Number(row.wall_time_s), Cell::text(&row.kernel)];
         let cells = [&begin[..], inputs, &ending, figures, &work].concat();
         self.files.iter_mut().try_for_each(|file| file.row(cells.clone()))
+    }
+
+    /// Describes the part of a study that a Parquet file is, and renames the complete files.
+    ///
+    /// # Errors
+    /// An error of the operating system.
+    pub fn publish_part(self, about: &About) -> Result<Vec<PathBuf>, Failure> {
+        let about = serde_json::to_string(about);
+        let about = about.map_err(|e| Failure::plain(format!("the part cannot be described: {e}")))?;
+        let publish = |mut file: TableFile| match Form::of(file.path()) {
+            Some(Form::Parquet) => {
+                file.describe(ABOUT, about.clone());
+                file.publish_after(seal)
+            }
+            _ => file.publish(),
+        };
+        self.files.into_iter().map(publish).collect()
     }
 
     /// Renames the complete files.

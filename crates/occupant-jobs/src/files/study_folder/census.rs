@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 
 use occupant_core::results::summary::Caveat;
+use serde::{Deserialize, Serialize};
 
-use crate::files::study_folder::{Manifest, Row, Status};
+use super::manifest::Manifest;
+use super::row::{Row, Status};
 
 /// Largest number of different reasons kept.
 const REASONS: usize = 12;
@@ -12,7 +14,7 @@ const REASONS: usize = 12;
 const FIRST: usize = 3;
 
 /// Outcomes of runs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Census {
     /// All runs of the study.
     pub planned: u64,
@@ -86,11 +88,34 @@ impl Census {
         if self.first.len() < FIRST {
             self.first.push((row.index, row.reason.clone()));
         }
-        let known = self.reasons.iter().position(|r| r.0 == row.reason);
+        self.count_reason(&row.reason, 1, row.index);
+    }
+
+    fn count_reason(&mut self, reason: &str, count: u64, first: u64) {
+        let known = self.reasons.iter().position(|r| r.0 == reason);
         match known {
-            Some(at) => self.reasons[at].1 += 1,
-            None if self.reasons.len() < REASONS => self.reasons.push((row.reason.clone(), 1, row.index)),
-            None => self.other_reasons += 1,
+            Some(at) => self.reasons[at].1 += count,
+            None if self.reasons.len() < REASONS => self.reasons.push((reason.to_owned(), count, first)),
+            None => self.other_reasons += count,
+        }
+    }
+
+    /// Adds the outcomes of later runs.
+    pub fn add(&mut self, later: &Census) {
+        self.completed += later.completed;
+        self.failed += later.failed;
+        self.refused += later.refused;
+        self.broken += later.broken;
+        self.doubtful += later.doubtful;
+        self.other_reasons += later.other_reasons;
+        let room = FIRST.saturating_sub(self.first.len());
+        self.first.extend(later.first.iter().take(room).cloned());
+        for (reason, count, first) in &later.reasons {
+            self.count_reason(reason, *count, *first);
+        }
+        for (name, (count, first)) in &later.caveats {
+            let known = self.caveats.entry(name.clone()).or_insert((0, *first));
+            *known = (known.0 + count, known.1.min(*first));
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Tables of words and numbers as CSV (RFC 4180) or Parquet, row by row; of a Parquet file a group of rows is held at a time, a
 //! workbook or MAT file as a whole.
 
+mod stored;
+
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,6 +19,8 @@ use serde::{Deserialize, Serialize};
 
 use super::book::{self, Sheet};
 use crate::base::{Existing, Failure, PartialFile, by_ending, program};
+
+pub use stored::StoredTable;
 
 /// Number of values buffered, but at least and at most this many rows.
 const CELLS: usize = 400_000;
@@ -207,6 +211,13 @@ impl<W: Write + Send> Table<W> {
         }
     }
 
+    /// Adds to the metadata of a Parquet file what is known only at its end.
+    pub fn describe(&mut self, key: &str, value: String) {
+        if let Writer::Parquet(writer) = &mut self.writer {
+            writer.append_key_value_metadata(KeyValue::new(key.to_owned(), value));
+        }
+    }
+
     /// Ends the table and returns its target.
     ///
     /// # Errors
@@ -328,6 +339,11 @@ impl TableFile {
         Ok(TableFile { path, table })
     }
 
+    /// Its final name.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Adds a row: [`Table::row`].
     ///
     /// # Errors
@@ -341,12 +357,26 @@ impl TableFile {
         self.table.beside(name, columns, rows);
     }
 
+    /// As [`Table::describe`].
+    pub fn describe(&mut self, key: &str, value: String) {
+        self.table.describe(key, value);
+    }
+
     /// Renames the complete file.
     ///
     /// # Errors
     /// An error of the writer or of the operating system.
     pub fn publish(self) -> Result<PathBuf, Failure> {
-        let file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
+        self.publish_after(|_| Ok(()))
+    }
+
+    /// Renames the complete file after `last` has changed it.
+    ///
+    /// # Errors
+    /// An error of the writer or of the operating system.
+    pub fn publish_after(self, last: impl FnOnce(&mut PartialFile) -> io::Result<()>) -> Result<PathBuf, Failure> {
+        let mut file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
+        last(&mut file).map_err(|e| unwritten(&self.path, &e))?;
         file.publish().map_err(|e| broke_off(&e))
     }
 }

@@ -1,0 +1,322 @@
+//! A part of the table of a study: the rows of a range of samples, complete and never changed again.
+//!
+//! It is a Parquet file with the columns of the whole table, and so is `results.parquet`. The last entry of its metadata,
+//! `occupant.part`, says in JSON what it is a part of. It begins with two CRC-32: of the whole file, and of its end from the
+//! metadata on; both take the digits of both as zeros. So the description is believed without a look at the rows.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::census::Census;
+use super::manifest::Manifest;
+use super::problem::Problem;
+use super::row::Row;
+use crate::base::{Failure, PartialFile, each_portion};
+use occupant_files::table::StoredTable;
+
+/// Name of the metadata with the description.
+pub const ABOUT: &str = "occupant.part";
+/// Text before each checksum in the file, and its digits before it is known.
+const MARKS: [&str; 2] = ["{\"crc32\":\"", "\",\"end_crc32\":\""];
+const UNKNOWN: &str = "00000000";
+/// Longest end of a file, bytes.
+const MOST_OF_END: u64 = 256 << 20;
+/// Bytes behind the metadata of a Parquet file: its length and the file's mark.
+const TAIL: u64 = 8;
+
+/// What a part says of itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct About {
+    crc32: String,
+    end_crc32: String,
+    /// Identity of the study: [`super::Manifest::identity`].
+    pub study: String,
+    /// Identity of the build that wrote it.
+    pub build: String,
+    /// First sample.
+    pub first: u64,
+    /// Last sample.
+    pub last: u64,
+    /// SHA-256 of the whole runs that were kept of these samples, by name.
+    pub runs: BTreeMap<String, String>,
+    /// Outcomes of the runs.
+    pub census: Census,
+    /// Wall time of all runs, s.
+    pub wall_time_s: f64,
+}
+
+/// A part that is there.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its path.
+    pub path: PathBuf,
+    /// Its description.
+    pub about: About,
+    /// Whether all its bytes have been checked.
+    is_checked: bool,
+}
+
+impl About {
+    /// Description of the rows of these samples of a study, none seen yet.
+    pub fn new(manifest: &Manifest, samples: &Range<u64>) -> Self {
+        About {
+            crc32: UNKNOWN.to_owned(),
+            end_crc32: UNKNOWN.to_owned(),
+            study: manifest.identity(),
+            build: manifest.build.clone(),
+            first: samples.start,
+            last: samples.end.saturating_sub(1),
+            runs: BTreeMap::new(),
+            census: Census { planned: samples.end - samples.start, ..Census::default() },
+            wall_time_s: 0.0,
+        }
+    }
+
+    /// Counts a row; whether its figures are valid.
+    pub fn see(&mut self, row: &Row) -> bool {
+        self.wall_time_s += row.wall_time_s;
+        self.census.see(row)
+    }
+
+    /// Its samples.
+    pub fn samples(&self) -> Range<u64> {
+        self.first..self.last + 1
+    }
+}
+
+impl Part {
+    /// The part with this name, by its description; none if there is no such file.
+    ///
+    /// # Errors
+    /// A file that is no complete part, or one of another study; an error of the operating system.
+    pub fn open(path: &Path, study: &str) -> Result<Option<Part>, Problem> {
+        let mut file = match File::open(path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            opened => opened.map_err(Problem::io("read", path))?,
+        };
+        let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
+        let end = End::read(&mut file).map_err(Problem::io("read", path))?;
+        let about = end.and_then(|end| end.about()).ok_or_else(|| damaged("was changed after it was written"))?;
+        if about.study != study {
+            return Err(damaged("is a part of another sweep"));
+        }
+        Ok(Some(Part { path: path.to_owned(), about, is_checked: false }))
+    }
+
+    /// Checks all bytes, once.
+    ///
+    /// # Errors
+    /// A file that was changed; an error of the operating system.
+    pub fn check(&mut self) -> Result<(), Problem> {
+        if !self.is_checked {
+            self.refuse_damage()?;
+        }
+        self.is_checked = true;
+        Ok(())
+    }
+
+    fn refuse_damage(&self) -> Result<(), Problem> {
+        let crc32 = || {
+            let mut file = File::open(&self.path)?;
+            let end = End::read(&mut file)?;
+            end.map(|end| end.of_file(&mut file)).transpose()
+        };
+        if crc32().map_err(Problem::io("read", &self.path))?.as_ref() == Some(&self.about.crc32) {
+            return Ok(());
+        }
+        Err(Problem::Damaged { path: self.path.clone(), found: "was changed after it was written".to_owned() })
+    }
+
+    /// Passes the rows of a range on, in order, after the first look at all bytes.
+    ///
+    /// # Errors
+    /// A file that was changed; an error of the operating system; what `see` says.
+    pub fn each_row(
+        &self,
+        samples: &Range<u64>,
+        see: &mut impl FnMut(Row) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        if !self.is_checked {
+            self.refuse_damage()?;
+        }
+        let table = StoredTable::open(&self.path).map_err(Problem::io("read", &self.path))?;
+        let inputs = table.columns().skip(1).take_while(|name| *name != "status").count();
+        let mut next = self.about.first;
+        for (number, count) in table.groups().enumerate() {
+            let group = next..next.saturating_add(count);
+            next = group.end;
+            if group.start >= samples.end || group.end <= samples.start {
+                continue;
+            }
+            for cells in table.group(number).map_err(Problem::io("read", &self.path))? {
+                let row = Row::from_cells(cells, inputs).ok_or_else(|| self.without_row())?;
+                if samples.contains(&row.index) {
+                    see(row)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn without_row(&self) -> Problem {
+        Problem::Damaged { path: self.path.clone(), found: "has a row that is none of a sweep".to_owned() }
+    }
+}
+
+/// The end of a Parquet file from its metadata on, and where it begins.
+struct End {
+    from: u64,
+    bytes: Vec<u8>,
+}
+
+impl End {
+    /// Reads it; none of a file that has none.
+    fn read(file: &mut File) -> io::Result<Option<End>> {
+        let length = file.metadata()?.len();
+        let mut tail = [0; TAIL as usize];
+        let Some(at) = length.checked_sub(TAIL) else { return Ok(None) };
+        file.seek(SeekFrom::Start(at))?;
+        file.read_exact(&mut tail)?;
+        let [a, b, c, d, mark @ ..] = tail;
+        let size = u64::from(u32::from_le_bytes([a, b, c, d])) + TAIL;
+        if mark != *b"PAR1" || size > length || size > MOST_OF_END {
+            return Ok(None);
+        }
+        let from = file.seek(SeekFrom::Start(length - size))?;
+        let mut bytes = Vec::new();
+        file.take(size).read_to_end(&mut bytes)?;
+        Ok(Some(End { from, bytes }))
+    }
+
+    /// Places of the digits of both checksums, of the file first.
+    fn places(&self) -> Option<[Range<usize>; 2]> {
+        let [first, second] = MARKS.map(str::as_bytes);
+        let is_mark = |at: &usize| self.bytes[*at..].starts_with(first);
+        let begin = (0..self.bytes.len()).rev().find(is_mark)? + first.len();
+        let of_file = begin..begin + UNKNOWN.len();
+        let begin = of_file.end + second.len();
+        (self.bytes.get(of_file.end..begin)? == second).then_some([of_file, begin..begin + UNKNOWN.len()])
+    }
+
+    /// The bytes with zeros for both checksums.
+    fn without_sums(&self) -> Option<Vec<u8>> {
+        let mut bytes = self.bytes.clone();
+        for place in self.places()? {
+            bytes.get_mut(place)?.copy_from_slice(UNKNOWN.as_bytes());
+        }
+        Some(bytes)
+    }
+
+    /// The description, if the end is as it was written.
+    fn about(&self) -> Option<About> {
+        let [of_file, _] = self.places()?;
+        let text = self.bytes.get(of_file.start - MARKS[0].len()..)?;
+        let about: About = serde_json::Deserializer::from_slice(text).into_iter().next()?.ok()?;
+        let is_ours = about.first <= about.last && about.last < u64::MAX;
+        (is_ours && about.end_crc32 == self.crc32()?).then_some(about)
+    }
+
+    fn crc32(&self) -> Option<String> {
+        self.without_sums().map(|bytes| format!("{:08x}", crc32fast::hash(&bytes)))
+    }
+
+    /// Checksum of the whole file.
+    fn of_file(&self, file: &mut File) -> io::Result<String> {
+        let mut hash = crc32fast::Hasher::new();
+        file.rewind()?;
+        each_portion(&mut file.take(self.from), |bytes| hash.update(bytes))?;
+        hash.update(&self.without_sums().unwrap_or_default());
+        Ok(format!("{:08x}", hash.finalize()))
+    }
+}
+
+/// Writes the checksums into a file that is complete but for them.
+///
+/// # Errors
+/// An error of the operating system; a file without description.
+pub fn seal(file: &mut PartialFile) -> io::Result<()> {
+    file.flush()?;
+    let mut written = File::open(file.partial_path())?;
+    let end = End::read(&mut written)?.ok_or(ErrorKind::InvalidData)?;
+    let sums = [end.of_file(&mut written)?, end.crc32().ok_or(ErrorKind::InvalidData)?];
+    for (place, sum) in end.places().ok_or(ErrorKind::InvalidData)?.into_iter().zip(sums) {
+        file.seek(SeekFrom::Start(end.from + place.start as u64))?;
+        file.write_all(sum.as_bytes())?;
+    }
+    file.seek(SeekFrom::End(0)).map(|_| ())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::base::Existing;
+    use crate::files::study_folder::manifest::{Column, Manifest, Role};
+    use crate::files::study_folder::row::tests::row;
+    use crate::files::study_folder::table::StudyTable;
+    use occupant_files::table::Form;
+
+    /// A part of samples 3 to 42, whose rows are those of [`row`].
+    fn part() -> (tempfile::TempDir, PathBuf, String) {
+        let there = tempfile::tempdir().unwrap();
+        let mut manifest = Manifest::new("occupant 1".to_owned(), String::new(), 100, Vec::new());
+        let column = |name: &str, role| Column { name: name.to_owned(), unit: "1".to_owned(), role };
+        let roles = [("input.a", Role::Input), ("input.b", Role::Input), ("input.c", Role::InputText)];
+        manifest.columns.extend(roles.map(|(name, role)| column(name, role)));
+        manifest.columns.push(column("{\"crc32\":\"", Role::Figure));
+        let path = there.path().join("3-42.parquet");
+        let mut table = StudyTable::create([(path.clone(), Form::Parquet)], Existing::Replace, &manifest).unwrap();
+        let mut about = About::new(&manifest, &(3..43));
+        for index in 3..43 {
+            about.see(&row(index));
+            table.row(&row(index)).unwrap();
+        }
+        table.publish_part(&about).unwrap();
+        (there, path, manifest.identity())
+    }
+
+    fn read(path: &Path, study: &str) -> Result<Vec<Row>, String> {
+        let part = Part::open(path, study).map_err(|e| e.to_string())?.ok_or("none")?;
+        let mut rows = Vec::new();
+        let read = part.each_row(&(0..100), &mut |row| {
+            rows.push(row);
+            Ok(())
+        });
+        read.map(|()| rows).map_err(Failure::words)
+    }
+
+    #[test]
+    fn a_part_holds_its_rows_to_the_bit_and_what_they_are_of() {
+        let (_there, path, study) = part();
+        assert_eq!(read(&path, &study).unwrap(), (3..43).map(row).collect::<Vec<_>>());
+        let mut part = Part::open(&path, &study).unwrap().unwrap();
+        part.check().unwrap();
+        assert_eq!(part.about.samples(), 3..43);
+        assert_eq!((part.about.census.planned, part.about.census.finished()), (40, 40));
+        assert_eq!(part.about.wall_time_s, 10.0);
+        assert!(Part::open(&path, "other").unwrap_err().to_string().contains("another sweep"));
+        assert!(Part::open(&path.with_extension("none"), &study).unwrap().is_none());
+    }
+
+    #[test]
+    fn any_changed_byte_and_any_cut_is_noticed() {
+        let (_there, path, study) = part();
+        let whole = fs::read(&path).unwrap();
+        for at in 0..whole.len() {
+            let mut other = whole.clone();
+            other[at] ^= 1 << (at % 8);
+            fs::write(&path, &other).unwrap();
+            assert!(read(&path, &study).is_err(), "byte {at} of {}", whole.len());
+        }
+        for at in (0..whole.len()).step_by(7) {
+            fs::write(&path, &whole[..at]).unwrap();
+            assert!(read(&path, &study).is_err(), "cut at {at}");
+        }
+    }
+}
