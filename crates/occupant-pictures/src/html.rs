@@ -40,6 +40,8 @@ pub enum Cell {
     Number(String),
     /// A number with a mark, and its reason.
     Marked(String, String),
+    /// A number on a shade from 1 to 5.
+    Shaded(String, usize),
 }
 
 impl Html {
@@ -107,6 +109,9 @@ impl Cell {
         match self {
             Cell::Words(text) => format!("<td>{}</td>", escape(text)),
             Cell::Number(text) => format!("<td class=\"number\">{}</td>", escape(text)),
+            Cell::Shaded(text, shade) => {
+                format!("<td class=\"number shade-{shade}\">{}</td>", escape(text))
+            }
             Cell::Marked(text, why) => {
                 format!("<td class=\"number marked\" title=\"{}\">{}\u{a0}†</td>", escape(why), escape(text))
             }

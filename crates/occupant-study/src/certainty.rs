@@ -6,7 +6,7 @@
 //! the innermost rank for which this is at most 2.5 %: H. A. David, H. N. Nagaraja, "Order Statistics", 3rd edition (2003),
 //! section 7.1. A bootstrap of extreme quantiles would be too narrow.
 
-use crate::spread::quantile_of_sorted;
+use crate::sketch::{Ordered, Sketch};
 use occupant_units::trig;
 use occupant_units::trig::ln;
 use serde::Serialize;
@@ -66,23 +66,21 @@ pub struct Histogram {
     pub counts: Vec<usize>,
 }
 
-/// The quantiles at [`PARTS`], with intervals; empty without values. NaN is left out.
-pub fn quantiles(values: &[f64]) -> Vec<Quantile> {
-    let sorted = crate::spread::sorted(values);
-    if sorted.is_empty() {
+/// The quantiles at [`PARTS`], with intervals; empty without values.
+pub fn quantiles(values: &Ordered) -> Vec<Quantile> {
+    if values.is_empty() {
         return Vec::new();
     }
     let one = |part: f64| {
-        let [low, high] = ranks(sorted.len(), part).map(|rank| Some(sorted[rank? - 1]));
-        Quantile { part, value: quantile_of_sorted(&sorted, part), low, high, needed: needed(part) }
+        let [low, high] = ranks(values.len(), part).map(|rank| Some(values.at(rank? - 1)));
+        Quantile { part, value: values.quantile(part), low, high, needed: needed(part) }
     };
     PARTS.map(one).to_vec()
 }
 
 /// How often finite values exceed a limit; none without values.
-pub fn exceedance(values: &[f64], limit: f64) -> Option<Exceedance> {
-    let of = values.iter().filter(|x| x.is_finite()).count();
-    let above = values.iter().filter(|x| x.is_finite() && **x > limit).count();
+pub fn exceedance(values: &Sketch, limit: f64) -> Option<Exceedance> {
+    let (of, above) = (values.len(), values.above(limit));
     let [low, high] = wilson(above, of)?;
     let probability = above as f64 / of as f64;
     Some(Exceedance { above, of, probability, low, high, needed: needed_for(probability) })
@@ -131,11 +129,17 @@ pub fn needed(part: f64) -> usize {
 /// Ranks, from 1, of the values between which a quantile lies with at least 95 %; none where the sample is too small.
 fn ranks(n: usize, part: f64) -> [Option<usize>; 2] {
     let (first, weights) = binomial(n, part);
-    let sum = |range: std::ops::Range<usize>| weights[range].iter().sum::<f64>();
-    let count = weights.len();
+    // how many weights from one end add up to 2.5 % at most
+    fn within<'w>(weights: impl Iterator<Item = &'w f64>) -> usize {
+        let sums = weights.scan(0.0, |sum, weight| {
+            *sum += weight;
+            Some(*sum)
+        });
+        sums.take_while(|sum| *sum <= TAIL).count()
+    }
     // the largest l with P(B ≤ l − 1) ≤ 2.5 %; below the first weight there is nothing
-    let below = (0..=count).rev().find(|i| sum(0..*i) <= TAIL).unwrap_or(0);
-    let above = (0..=count).find(|i| sum(*i..count) <= TAIL).unwrap_or(count);
+    let below = within(weights.iter());
+    let above = weights.len() - within(weights.iter().rev());
     let (l, u) = (first + below, first + above);
     [(l >= 1).then_some(l), (u <= n).then_some(u)]
 }
@@ -172,20 +176,24 @@ fn binomial(n: usize, p: f64) -> (usize, Vec<f64>) {
 
 /// A histogram in intervals of 1, 2 or 5 times a power of ten of the unit `per`, about as wide as D. Freedman and
 /// P. Diaconis advise (Z. Wahrscheinlichkeitstheorie 57, 1981): 2·IQR·n^(−1/3). None without values that differ.
-pub fn histogram(values: &[f64], per: f64) -> Option<Histogram> {
-    let sorted = crate::spread::sorted(values);
-    let (least, greatest) = (sorted.first()? / per, sorted.last()? / per);
+pub fn histogram(values: &Ordered, per: f64) -> Option<Histogram> {
+    let ends = [values.steps().next()?.0, values.greatest()?];
+    let [least, greatest] = ends.map(|end| end / per);
     let range = greatest - least;
     if !(range.is_finite() && range > 1e-12 * least.abs().max(greatest.abs())) {
         return None;
     }
-    let quarters = (quantile_of_sorted(&sorted, 0.75) - quantile_of_sorted(&sorted, 0.25)) / per;
-    let advised = 2.0 * quarters / trig::cbrt(sorted.len() as f64);
+    let quarters = (values.quantile(0.75) - values.quantile(0.25)) / per;
+    let advised = 2.0 * quarters / trig::cbrt(values.len() as f64);
     let width = round_up(advised.clamp(range / BARS, range / 4.0));
     let place = |x: f64| (x / per / width).floor();
-    let first = place(*sorted.first()?);
-    let mut counts = vec![0; (place(*sorted.last()?) - first) as usize + 1];
-    sorted.iter().for_each(|x| counts[(place(*x) - first) as usize] += 1);
+    let [first, last] = ends.map(place);
+    let mut counts = vec![0; (last - first) as usize + 1];
+    let mut below = 0;
+    for (x, upto) in values.steps() {
+        counts[(place(x) - first) as usize] += upto - below;
+        below = upto;
+    }
     Some(Histogram { from: first * width * per, width: width * per, counts })
 }
 

@@ -150,10 +150,20 @@ impl Design {
             }
             Design::OneAtATime { .. } => levels.iter().try_fold(1_u64, |n, l| n.checked_add(l.unwrap_or(2))),
             Design::Table { rows, .. } => Some(rows.len() as u64),
-            Design::Saltelli { samples, second_order } => samples.checked_mul(saltelli::block_len(k, *second_order)),
-            Design::Morris { trajectories, .. } => trajectories.checked_mul(k + 1),
+            Design::Saltelli { samples: points, .. } | Design::Morris { trajectories: points, .. } => {
+                points.checked_mul(self.unit(k))
+            }
         };
         len.filter(|n| *n <= 1 << 52)
+    }
+
+    /// Number of consecutive samples that belong together, with so many parameters.
+    pub(super) fn unit(&self, parameters: u64) -> u64 {
+        match self {
+            Design::Saltelli { second_order, .. } => saltelli::block_len(parameters, *second_order),
+            Design::Morris { .. } => parameters + 1,
+            _ => 1,
+        }
     }
 
     /// Whether its samples are drawn from the parameters' laws, one coordinate for each.

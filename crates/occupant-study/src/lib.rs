@@ -78,6 +78,7 @@ mod section;
 mod segments;
 #[cfg(feature = "sensitivity")]
 pub mod sensitivity;
+pub mod sketch;
 mod sobol;
 pub mod spread;
 mod text;
@@ -95,7 +96,7 @@ pub use normal::quantile as normal_quantile;
 pub use optimise::{Constraint, Goal, Optimise};
 pub use optimise_section::{ConstraintSection, GoalSection, OptimiseSection};
 pub use parameter::{Assignment, Parameter, Target};
-pub use random::of_resample;
+pub use random::{of_resample, of_stretch};
 pub use saltelli::Block;
 pub use section::{ApplyChoice, StudySection, schema_json};
 pub use text::StudyText;
@@ -212,6 +213,12 @@ impl Study {
     /// Number of combinations of crossed values for each point of the design.
     pub fn crossing(&self) -> u64 {
         crossing(&self.parameters).unwrap_or(u64::MAX)
+    }
+
+    /// Number of consecutive samples that belong together: the rows of a point of Saltelli's blocks, a Morris trajectory, the
+    /// combinations of crossed values of a point; else 1.
+    pub fn unit(&self) -> u64 {
+        self.crossing().saturating_mul(self.design.unit(self.parameters.len() as u64))
     }
 
     /// Runs per sample: members of the ensemble, or 1.

@@ -49,6 +49,11 @@ pub fn of_resample(index: u64, dimension: u32) -> f64 {
     unit(0, Purpose::Bootstrap, index, dimension)
 }
 
+/// One of `of` numbers from 0, chosen at random for a stretch of something counted.
+pub fn of_stretch(seed: u64, stretch: u64, of: u64) -> u64 {
+    bits(seed, Purpose::Bootstrap, stretch, u32::MAX, 1) % of.max(1)
+}
+
 /// (k + ½)/2⁵² of the lower 52 bits: exact, never 0 or 1.
 pub(super) fn open_unit(k: u64) -> f64 {
     const SCALE: f64 = 1.0 / (1_u64 << 52) as f64;

@@ -5,6 +5,8 @@
 
 use serde::Serialize;
 
+use crate::sketch::Sketch;
+
 /// Spread of a figure over the members of an ensemble.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
@@ -82,17 +84,22 @@ impl Rule {
 impl Spread {
     /// The spread of a figure; none if no member has it.
     pub fn of(values: &[f64]) -> Option<Spread> {
-        let sorted = sorted(values);
-        let (least, greatest) = (*sorted.first()?, *sorted.last()?);
+        Spread::of_sketch(&Sketch::exact(values))
+    }
+
+    /// The spread of a stream; none if no member has the figure.
+    pub fn of_sketch(sketch: &Sketch) -> Option<Spread> {
+        let [least, greatest] = sketch.ends()?;
+        let ordered = sketch.ordered();
         Some(Spread {
-            members: sorted.len(),
-            missing: values.len() - sorted.len(),
+            members: sketch.len(),
+            missing: sketch.missing(),
             least,
-            q05: quantile_of_sorted(&sorted, 0.05),
-            q25: quantile_of_sorted(&sorted, 0.25),
-            median: quantile_of_sorted(&sorted, 0.5),
-            q75: quantile_of_sorted(&sorted, 0.75),
-            q95: quantile_of_sorted(&sorted, 0.95),
+            q05: ordered.quantile(0.05),
+            q25: ordered.quantile(0.25),
+            median: ordered.quantile(0.5),
+            q75: ordered.quantile(0.75),
+            q95: ordered.quantile(0.95),
             greatest,
         })
     }

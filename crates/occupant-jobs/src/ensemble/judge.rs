@@ -26,9 +26,7 @@ impl Judged {
     /// allowed width of the middle 90 % relative to the median. None if no member has a value.
     pub fn of(name: &str, unit: &str, values: &[f64], relative: f64) -> Option<Judged> {
         let spread = Spread::of(values)?;
-        // a time is judged by its plain difference alone: where a clock begins says nothing
-        let relative = if unit == "s" { 0.0 } else { relative };
-        let rule = Rule { relative, absolute: smallest(name, unit), ..Rule::default() };
+        let rule = rule_for(name, unit, relative);
         Some(Judged {
             name: name.to_owned(),
             unit: unit.to_owned(),
@@ -38,6 +36,17 @@ impl Judged {
             spread,
         })
     }
+}
+
+/// The rule by which a figure is assessed.
+pub fn rule(name: &str, unit: &str) -> Rule {
+    rule_for(name, unit, Rule::default().relative)
+}
+
+fn rule_for(name: &str, unit: &str, relative: f64) -> Rule {
+    // a time is judged by its plain difference alone: where a clock begins says nothing
+    let relative = if unit == "s" { 0.0 } else { relative };
+    Rule { relative, absolute: smallest(name, unit), ..Rule::default() }
 }
 
 /// Assesses figures (name, unit, one value per member). Figures without values are left out, and times of peaks too

@@ -2,6 +2,7 @@
 
 use occupant_core::results::summary::Caveat;
 use occupant_study::Tolerances;
+use occupant_study::sketch::Sketch;
 
 use super::text::changes;
 use super::{Left, Member};
@@ -43,20 +44,20 @@ pub fn quotes(of: &Subject<'_>, nominal: &Left, others: &[Member]) -> Vec<Statem
     let statement = |(i, figure): (usize, &occupant_core::results::summary::Figure)| {
         let counts = |member: &Member| member.as_ref().ok().filter(|left| !lost(left)).map(|left| left.value(i));
         let values: Vec<f64> = others.iter().map(|member| counts(member).unwrap_or(f64::NAN)).collect();
+        let values = Sketch::exact(&values);
         let touched = |left: &&Left| left.value(i).is_finite() && left.caveats.iter().any(|c| c.touches(&figure.name));
         let kept = others.iter().flatten().filter(|left| !lost(left)).filter(touched);
         let names = kept.clone().flat_map(|left| left.caveats.iter().filter(|c| c.touches(&figure.name)));
         let mut names: Vec<String> = names.map(|caveat| caveat.name.clone()).collect();
         names.sort_unstable();
         names.dedup();
-        let there = values.iter().filter(|x| x.is_finite()).count();
         let of_figure = Values {
             figure: &figure.name,
             unit: figure.unit,
             case: None,
             values: &values,
             unchanged: Some(nominal.value(i)),
-            caveats: (kept.count(), there, &names),
+            caveats: (kept.count(), values.len(), &names),
         };
         Statement::of(&about, &of_figure, of.limits, of.units)
     };

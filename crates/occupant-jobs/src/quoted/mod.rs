@@ -9,6 +9,7 @@ pub use paragraph::percent;
 
 use occupant_core::results::summary::FigureLimit;
 use occupant_study::certainty::{Exceedance, Histogram, Quantile, exceedance, histogram, quantiles};
+use occupant_study::sketch::{Ordered, Sketch};
 use serde::Serialize;
 
 use crate::base::Units;
@@ -57,8 +58,8 @@ pub struct Values<'a> {
     pub unit: &'a str,
     /// The combination of crossed values that these runs have, if any.
     pub case: Option<&'a str>,
-    /// One value for each run, NaN where it has none.
-    pub values: &'a [f64],
+    /// One value for each run; missing where it has none.
+    pub values: &'a Sketch,
     /// The unchanged run of an ensemble.
     pub unchanged: Option<f64>,
     /// Runs with caveats on the figure, of so many, and the names of these.
@@ -97,9 +98,12 @@ pub struct Statement {
     pub histogram: Option<Histogram>,
     /// The text to quote.
     pub paragraph: String,
+    /// Largest error of the rank of a quantile, as a fraction of the runs; absent if it is exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rank_error: Option<f64>,
     /// The values.
     #[serde(skip)]
-    pub values: Vec<f64>,
+    pub values: Ordered,
 }
 
 /// A limit, and how often it is exceeded.
@@ -121,7 +125,7 @@ pub struct Exceeded {
 impl Statement {
     /// What the values say; none without a value.
     pub fn of(about: &About, of: &Values<'_>, limits: &Limits, units: Units) -> Option<Statement> {
-        let values: Vec<f64> = of.values.iter().copied().filter(|x| x.is_finite()).collect();
+        let values = of.values.ordered();
         let mut quantiles = quantiles(&values);
         let without_intervals = match &about.sampling {
             Sampling::None(why) => Some(why.clone()),
@@ -135,14 +139,15 @@ impl Statement {
             unit: of.unit.to_owned(),
             case: of.case.map(str::to_owned),
             runs: values.len(),
-            left_out: left_out(about, of, values.len()),
+            left_out: left_out(about, of),
             unchanged: of.unchanged.filter(|x| x.is_finite()),
             without_intervals,
-            limits: exceeded(&limits.of(of.figure), &values),
+            limits: exceeded(&limits.of(of.figure), of.values),
             runs_with_caveats: [of.caveats.0, of.caveats.1],
             caveats: of.caveats.2.to_vec(),
             histogram: histogram(&values, units.told(of.unit).shown.0),
             paragraph: String::new(),
+            rank_error: Some(of.values.error()).filter(|error| *error > 0.0),
             quantiles,
             values,
         };
@@ -157,8 +162,8 @@ impl Statement {
 }
 
 /// Runs that are left out: those without any figure, then those that lack this one.
-fn left_out(about: &About, of: &Values<'_>, found: usize) -> Vec<LeftOut> {
-    let missing = (of.values.len() - found) as u64;
+fn left_out(about: &About, of: &Values<'_>) -> Vec<LeftOut> {
+    let missing = of.values.missing() as u64;
     if of.case.is_some() {
         let reason = "its run failed, lost its energy balance or lacks this figure".to_owned();
         return if missing > 0 { vec![LeftOut { runs: missing, reason }] } else { Vec::new() };
@@ -172,7 +177,7 @@ fn left_out(about: &About, of: &Values<'_>, found: usize) -> Vec<LeftOut> {
 }
 
 /// How often each limit is exceeded; rules with the same limit together.
-fn exceeded(limits: &[&FigureLimit], values: &[f64]) -> Vec<Exceeded> {
+fn exceeded(limits: &[&FigureLimit], values: &Sketch) -> Vec<Exceeded> {
     let mut all: Vec<Exceeded> = Vec::new();
     for limit in limits {
         if let Some(known) = all.iter_mut().find(|known| known.most == limit.most && !known.rules.is_empty())

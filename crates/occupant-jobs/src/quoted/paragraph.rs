@@ -65,6 +65,10 @@ fn middle(about: &About, of: &Statement, unit: &Told) -> Vec<String> {
             with(high)
         ),
     ];
+    all.extend(of.rank_error.map(|error| {
+        let most = 100.0 * error;
+        format!("The ranks of these quantiles are off by at most {most:.2} % of the {}.", about.each[1])
+    }));
     if of.without_intervals.is_none() && of.runs < low.needed {
         all.push(format!(
             "These two quantiles have closed intervals from {} {} on; with fewer, an open end is unknown.",

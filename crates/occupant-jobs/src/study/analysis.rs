@@ -1,20 +1,21 @@
 //! Analysis of one response from a table of samples.
 
 use occupant_study::analysis::{
-    AnalysisError, Effect, RankCorrelation, Regression, SobolIndices, rank_correlation, regression, screening,
-    sobol_indices,
+    AnalysisError, Effect, EffectSums, Grouping, RankCorrelation, Regression, RegressionSums, SobolIndices, SobolSums,
+    rank_correlation, regression,
 };
 use occupant_study::spread::Spread;
-use occupant_study::{Block, Design, Role, Study};
+use occupant_study::{Design, Role, Study};
 
 use super::samples::varies;
+use super::streams::{RunOfDesign, is_independent, point, steps};
 use super::{Input, Samples};
 
-/// Limit on rows × (k + 1)² of a regression on k parameters with a thousand resamples; beyond it, rows are subsampled
-/// evenly.
+/// Limit on rows × (k + 1)² of a regression on k parameters with a thousand resamples of rows; beyond it, groups of rows are
+/// resampled.
 const REGRESSION_WORK: usize = 1_000_000;
-/// Largest number of rows of a regression.
-const REGRESSION_ROWS: usize = 20_000;
+/// Number of rows up to which rows are resampled, however many parameters there are.
+const REGRESSION_ROWS: usize = 200;
 
 /// Analysis of one response in a table of samples.
 #[derive(Clone, Debug)]
@@ -41,8 +42,11 @@ pub struct Linear {
     /// By parameter: its rank correlation, or the reason why it has none.
     pub ranks: Vec<Result<RankCorrelation, String>>,
     /// The parameters of the regression with its result, or the reason why there is none.
-    pub regression: Result<(Vec<usize>, Regression), String>,
+    pub regression: Fitted,
 }
+
+/// The parameters of a regression with its result, or the reason why there is none.
+pub type Fitted = Result<(Vec<usize>, Regression), String>;
 
 /// Analysis specific to a design.
 #[derive(Clone, Debug)]
@@ -62,30 +66,80 @@ pub enum ByDesign {
 pub struct Reach {
     /// Response of the base scenario.
     pub nominal: f64,
-    /// Parameter values and responses, in the order of the design, where they exist.
-    pub levels: Vec<(f64, f64)>,
+    /// Number of levels with a value.
+    pub levels: usize,
     /// Number of levels without a value.
     pub missing: usize,
+    /// Least and greatest response of its levels.
+    range: [f64; 2],
+    /// Parameter value and response at its least and its greatest value.
+    ends: Option<[(f64, f64); 2]>,
     /// Whether the parameter's values are ordered; words are not.
     ordered: bool,
 }
 
 impl Reach {
+    fn new(input: &Input) -> Self {
+        let range = [f64::INFINITY, f64::NEG_INFINITY];
+        Reach { nominal: f64::NAN, levels: 0, missing: 0, range, ends: None, ordered: input.is_number() }
+    }
+
+    fn see(&mut self, at: f64, value: f64) {
+        if !value.is_finite() {
+            self.missing += 1;
+            return;
+        }
+        self.levels += 1;
+        self.range = [self.range[0].min(value), self.range[1].max(value)];
+        let [least, greatest] = self.ends.unwrap_or([(at, value); 2]);
+        let first = if at < least.0 { (at, value) } else { least };
+        // of equal ones the last
+        let last = if at >= greatest.0 { (at, value) } else { greatest };
+        self.ends = Some([first, last]);
+    }
+
     /// Least and largest response, including that of the base.
     pub fn range(&self) -> [f64; 2] {
-        let all = || self.levels.iter().map(|l| l.1).chain([self.nominal]);
-        [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
+        [self.range[0].min(self.nominal), self.range[1].max(self.nominal)]
     }
 
     /// Responses at the least and the largest value of the parameter, if its values are ordered.
     pub fn ends(&self) -> Option<[f64; 2]> {
-        if !self.ordered {
-            return None;
+        self.ends.filter(|_| self.ordered).map(|ends| ends.map(|end| end.1))
+    }
+}
+
+/// The reaches of all parameters, run by run.
+#[derive(Clone, Debug)]
+pub struct Reaches {
+    nominal: f64,
+    all: Vec<Reach>,
+}
+
+impl Reaches {
+    /// No run yet.
+    pub fn new(inputs: &[Input]) -> Self {
+        Reaches { nominal: f64::NAN, all: inputs.iter().map(Reach::new).collect() }
+    }
+
+    /// Considers a run.
+    pub fn see(&mut self, role: &Role, inputs: &[f64], value: f64) {
+        match role {
+            Role::Nominal => self.nominal = value,
+            Role::Varied { parameter } => self.all[*parameter].see(inputs[*parameter], value),
+            _ => {}
         }
-        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
-        let least = self.levels.iter().min_by(by_value)?;
-        let greatest = self.levels.iter().max_by(by_value)?;
-        Some([least.1, greatest.1])
+    }
+
+    /// The reaches.
+    ///
+    /// # Errors
+    /// The base run has no value.
+    pub fn all(&self) -> Result<Vec<Reach>, String> {
+        let nominal = self.nominal;
+        let of_base = |reach: &Reach| Reach { nominal, ..reach.clone() };
+        let found = nominal.is_finite().then(|| self.all.iter().map(of_base).collect());
+        found.ok_or_else(|| "the base run has no such result".to_owned())
     }
 }
 
@@ -95,20 +149,26 @@ impl Analysis {
         let values = &samples.responses[response].values;
         let seed = study.seed;
         let by_design = match &study.design {
-            Design::Saltelli { .. } => ByDesign::Sobol(sobol(samples, values, seed)),
+            Design::Saltelli { second_order, .. } => ByDesign::Sobol(sobol(samples, values, seed, *second_order)),
             Design::Morris { .. } => ByDesign::Morris(morris(samples, values, seed)),
             Design::OneAtATime { .. } => ByDesign::OneAtATime(reaches(samples, values)),
             _ => ByDesign::Plain,
         };
-        let linear = Linear::of(samples, values, study);
-        Analysis {
-            response,
-            spread: Spread::of(values),
-            constant: !varies(values),
-            order: order(samples.inputs.len(), &by_design, &linear),
-            linear,
-            by_design,
-        }
+        let linear = Linear::of(samples, values, study, |inputs, rows, values| fit(inputs, rows, values, seed));
+        let spread = (Spread::of(values), !varies(values));
+        Analysis::from_parts(response, spread, linear, by_design, samples.inputs.len())
+    }
+
+    /// From its parts: the spread and whether it is constant, and those of so many parameters.
+    pub fn from_parts(
+        response: usize,
+        (spread, constant): (Option<Spread>, bool),
+        linear: Linear,
+        by_design: ByDesign,
+        parameters: usize,
+    ) -> Analysis {
+        let order = order(parameters, &by_design, &linear);
+        Analysis { response, spread, constant, linear, by_design, order }
     }
 }
 
@@ -136,16 +196,27 @@ fn order(parameters: usize, by_design: &ByDesign, linear: &Linear) -> Vec<usize>
 }
 
 impl Linear {
-    fn of(samples: &Samples, values: &[f64], study: &Study) -> Linear {
-        let without = match &study.design {
-            Design::Morris { .. } => {
-                "the runs of Morris trajectories depend on one another, so rank correlation and regression would not be valid"
+    /// Reason why a study has neither rank correlations nor a regression.
+    pub fn reason_against(study: &Study) -> Option<&'static str> {
+        match &study.design {
+            Design::Morris { .. } => Some(
+                "the runs of Morris trajectories depend on one another, so rank correlation and regression would not be valid",
+            ),
+            Design::OneAtATime { .. } => {
+                Some("a one-at-a-time design shows no interactions: only the tornado is available")
             }
-            Design::OneAtATime { .. } => "a one-at-a-time design shows no interactions: only the tornado is available",
-            _ => "",
-        };
-        if !without.is_empty() {
-            let why = without.to_owned();
+            _ => None,
+        }
+    }
+
+    /// Rank correlations of a table of samples, and the regression that `fit` makes of inputs, rows and values.
+    pub fn of(
+        samples: &Samples,
+        values: &[f64],
+        study: &Study,
+        fit: impl FnOnce(&[Input], &[usize], &[f64]) -> Fitted,
+    ) -> Linear {
+        if let Some(why) = Linear::reason_against(study).map(str::to_owned) {
             return Linear { without: Some(why.clone()), ranks: Vec::new(), regression: Err(why) };
         }
         let means = (study.crossing() > 1).then(|| means_of_points(samples, values, study.crossing()));
@@ -160,11 +231,7 @@ impl Linear {
             input if input.is_number() => rank_correlation(&taken(&input.values), &y).map_err(|e| said(&e)),
             _ => Err("words have no order".to_owned()),
         };
-        Linear {
-            without: None,
-            ranks: inputs.iter().map(rank).collect(),
-            regression: fit(inputs, &rows, values, study.seed),
-        }
+        Linear { without: None, ranks: inputs.iter().map(rank).collect(), regression: fit(inputs, &rows, values) }
     }
 }
 
@@ -191,18 +258,20 @@ fn means_of_points(samples: &Samples, values: &[f64], crossing: u64) -> (Vec<Inp
 }
 
 /// Regression on all numeric parameters that vary.
-fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(Vec<usize>, Regression), String> {
+fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Fitted {
     let among = |i: &usize| inputs[*i].is_number() && inputs[*i].varies();
     let which: Vec<usize> = (0..inputs.len()).filter(among).collect();
     if which.is_empty() {
         return Err("no parameter is a varying number".to_owned());
     }
-    let most = (REGRESSION_WORK / (which.len() + 1).pow(2)).clamp(200, REGRESSION_ROWS);
-    let every = rows.len().div_ceil(most).max(1);
-    let taken = |column: &[f64]| -> Vec<f64> {
-        let rows = rows.iter().step_by(every);
-        rows.map(|r| column[*r]).collect()
-    };
+    if rows.len() > (REGRESSION_WORK / (which.len() + 1).pow(2)).max(REGRESSION_ROWS) {
+        let mut sums = RegressionSums::new(which.len(), seed);
+        rows.iter().for_each(|row| sums.see(*row as u64, which.iter().map(|i| inputs[*i].values[*row]), values[*row]));
+        let found = sums.regression(seed);
+        let named = |at: Vec<usize>| at.into_iter().map(|at| which[at]).collect();
+        return found.map(|(at, found)| (named(at), found)).map_err(|e| said(&e));
+    }
+    let taken = |column: &[f64]| -> Vec<f64> { rows.iter().map(|r| column[*r]).collect() };
     let columns: Vec<Vec<f64>> = which.iter().map(|i| taken(&inputs[*i].values)).collect();
     let found = regression(&columns, &taken(values), seed);
     found.map(|found| (which, found)).map_err(|e| said(&e))
@@ -210,78 +279,57 @@ fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(V
 
 /// Rows with independent parameters: for Saltelli's blocks those of A and B.
 pub fn independent(samples: &Samples) -> Vec<usize> {
-    let is_mixed =
-        |row: &usize| matches!(samples.roles[*row], Role::Saltelli { block: Block::Ab { .. } | Block::Ba { .. }, .. });
-    (0..samples.len()).filter(|row| !is_mixed(row)).collect()
+    (0..samples.len()).filter(|row| is_independent(&samples.roles[*row])).collect()
+}
+
+/// The runs of a table in order.
+fn runs(samples: &Samples, values: &[f64]) -> Vec<RunOfDesign> {
+    let all = samples.numbers.iter().zip(&samples.roles).zip(values);
+    all.map(|((number, role), value)| (*number, *role, *value)).collect()
 }
 
 /// Points whose runs all exist; NaN for a run without the figure.
-fn sobol(samples: &Samples, values: &[f64], seed: u64) -> Result<SobolIndices, String> {
-    let (mut a, mut b, mut ab) = (Vec::new(), Vec::new(), vec![Vec::new(); samples.inputs.len()]);
-    let runs = samples.roles.iter().zip(values).filter_map(|(role, value)| match role {
-        Role::Saltelli { point, block } => Some((point, block, *value)),
-        _ => None,
-    });
-    for runs in runs.collect::<Vec<_>>().chunk_by(|one, next| one.0 == next.0) {
-        let of = |wanted: Block| runs.iter().find(|(_, block, _)| **block == wanted).map(|run| run.2);
-        let between: Option<Vec<f64>> = (0..ab.len()).map(|parameter| of(Block::Ab { parameter })).collect();
-        if let (Some(first), Some(between), Some(last)) = (of(Block::A), between, of(Block::B)) {
-            a.push(first);
-            b.push(last);
-            ab.iter_mut().zip(between).for_each(|(column, value)| column.push(value));
-        }
+fn sobol(samples: &Samples, values: &[f64], seed: u64, second_order: bool) -> Result<SobolIndices, String> {
+    let parameters = samples.inputs.len();
+    let mut sums = SobolSums::new(parameters, second_order, Grouping::Rows);
+    let point_of = |run: &RunOfDesign| if let Role::Saltelli { point, .. } = run.1 { Some(point) } else { None };
+    for runs in runs(samples, values).chunk_by(|one, next| point_of(one) == point_of(next)) {
+        point(runs, parameters).iter().for_each(|point| sums.see(0, point));
     }
-    sobol_indices(&a, &b, &ab, seed).map_err(|e| match e {
-        AnalysisError::TooFew { found, needed } => {
-            format!("{found} complete points; at least {needed} are needed")
-        }
-        e => said(&e),
-    })
+    sums.indices(seed).map_err(too_few)
 }
 
 /// Effects of all steps whose two runs exist.
 fn morris(samples: &Samples, values: &[f64], seed: u64) -> Result<Vec<Effect>, String> {
-    let mut effects: Vec<Vec<f64>> = vec![Vec::new(); samples.inputs.len()];
-    for (row, role) in samples.roles.iter().enumerate() {
-        let Role::Morris { changed: Some((parameter, step)), .. } = role else {
-            continue;
-        };
-        let before = samples.numbers[row].checked_sub(1);
-        let before = before.and_then(|number| samples.row_of(number));
-        let Some(before) = before else {
-            continue;
-        };
-        effects[*parameter].push((values[row] - values[before]) / step);
-    }
-    screening(&effects, seed).map_err(|e| match e {
-        AnalysisError::TooFew { found, needed } => {
-            format!("a parameter with {found} effects; at least {needed} are needed")
-        }
-        e => said(&e),
-    })
+    let mut effects = vec![EffectSums::new(Grouping::Rows); samples.inputs.len()];
+    steps(&runs(samples, values), |parameter, effect| effects[parameter].see(0, effect));
+    effects.iter().map(|effects| effects.effect(seed)).collect::<Result<_, _>>().map_err(too_few)
 }
 
 fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
-    let base = samples.roles.iter().position(|r| *r == Role::Nominal);
-    let nominal = base.map(|row| values[row]).filter(|x| x.is_finite());
-    let nominal = nominal.ok_or("the base run has no such result")?;
-    let none = |input: &Input| Reach { nominal, levels: Vec::new(), missing: 0, ordered: input.is_number() };
-    let mut reaches: Vec<Reach> = samples.inputs.iter().map(none).collect();
-    for (row, role) in samples.roles.iter().enumerate() {
-        let Role::Varied { parameter } = role else {
-            continue;
-        };
-        let reach = &mut reaches[*parameter];
-        if values[row].is_finite() {
-            reach.levels.push((samples.inputs[*parameter].values[row], values[row]))
-        } else {
-            reach.missing += 1
-        }
+    let mut reaches = Reaches::new(&samples.inputs);
+    for (row, value) in values.iter().enumerate() {
+        let inputs: Vec<f64> = samples.inputs.iter().map(|input| input.values[row]).collect();
+        reaches.see(&samples.roles[row], &inputs, *value);
     }
-    Ok(reaches)
+    reaches.all()
 }
 
-fn said(error: &AnalysisError) -> String {
+/// The reason in the words of a design.
+pub fn too_few(error: AnalysisError) -> String {
+    match error {
+        AnalysisError::TooFew { found, needed } if needed < 5 => {
+            format!("a parameter with {found} effects; at least {needed} are needed")
+        }
+        AnalysisError::TooFew { found, needed } => {
+            format!("{found} complete points; at least {needed} are needed")
+        }
+        e => said(&e),
+    }
+}
+
+/// The reason in the words of a study.
+pub fn said(error: &AnalysisError) -> String {
     match error {
         AnalysisError::Constant { parameter: Some(_) } => "a parameter is the same in all rows".to_owned(),
         AnalysisError::Constant { parameter: None } => "the result is the same in all rows".to_owned(),

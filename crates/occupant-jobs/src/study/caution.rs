@@ -106,7 +106,7 @@ pub fn lacking(spread: Option<&Spread>) -> Option<String> {
 /// Reason to mark all numbers of a response: its caveats.
 pub fn spoiled(found: &Spoiled) -> Option<String> {
     let Spoiled { runs, of, names } = found;
-    let names = || names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+    let names = || names.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
     (part(*runs, *of) > MISSING).then(|| format!("{runs} of {of} runs have caveats on this result: {}", names()))
 }
 
@@ -142,6 +142,7 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
         let help = "`occupant run` of such a sample explains the caveats and the results they affect.";
         notes.push(format!("Caveats. {}. {help}", caveats.join("; ")));
     }
+    notes.extend(all_too_coarse(opened, gathered));
     let study = &opened.plan.study;
     if !matches!(study.design, Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }) {
         notes.extend(together(&gathered.samples));
@@ -152,6 +153,31 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
         );
     }
     notes
+}
+
+/// What mends readings that are too coarse, of figures of which every value is.
+fn all_too_coarse(opened: &Stored, gathered: &Gathered) -> Vec<String> {
+    let mends = [("outputs_too_coarse", "output.interval"), ("readings_too_coarse", "integrator.step")];
+    let of = |(caveat, key): (&str, &str)| {
+        let responses = gathered.samples.responses.iter().zip(&gathered.spoiled);
+        let of_all = |spoiled: &Spoiled| {
+            let count: usize = spoiled.names.iter().filter(|(name, _)| name.ends_with(caveat)).map(|(_, n)| n).sum();
+            spoiled.of > 0 && count >= spoiled.of
+        };
+        let figures: Vec<&str> =
+            responses.filter(|(_, spoiled)| of_all(spoiled)).map(|(response, _)| response.name.as_str()).collect();
+        let present_s = opened.plan.study.base.places(key).ok().and_then(|places| places.first()?.si);
+        let told = |s: f64| format!("{} ms", (1e9 * s).round() / 1e6);
+        let present = present_s.map_or(String::new(), |s| format!(" (here {})", told(s)));
+        let example = format!("set = {{ \"{key}\" = \"{}\" }}", told(present_s.map_or(1e-4, |s| 0.5 * s)));
+        (!figures.is_empty()).then(|| {
+            format!(
+                "Every value of {} is marked {caveat}: give the study a shorter `{key}`{present}, such as {example}, and run it again.",
+                figures.join(", ")
+            )
+        })
+    };
+    mends.into_iter().filter_map(of).collect()
 }
 
 /// Correlated parameters, the strongest pair first: their effects cannot be separated.

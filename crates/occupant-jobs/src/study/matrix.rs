@@ -9,6 +9,8 @@ use occupant_pictures::svg::escape;
 
 /// Largest number of measures in the matrix.
 const MOST: usize = 12;
+/// Number of shades.
+const SHADES: f64 = 5.0;
 
 /// Quantity that a design gives for each parameter, and its description.
 fn telling(of: &Finding<'_>) -> (&'static str, &'static str) {
@@ -20,16 +22,54 @@ fn telling(of: &Finding<'_>) -> (&'static str, &'static str) {
     }
 }
 
-/// Influence of a parameter, with the reason if it is unreliable.
-fn cell(of: &Finding<'_>, parameter: usize) -> Option<(String, Option<String>)> {
-    let number = of.number(telling(of).0, parameter)?;
-    let least = match number.quantity {
-        "alone_greatest" => of.value("alone_least", parameter),
-        _ => 0.0,
+/// Influence of a parameter on a measure.
+struct Influence {
+    value: f64,
+    text: String,
+    /// Reason why it is unreliable.
+    mark: Option<String>,
+}
+
+impl Influence {
+    fn of(of: &Finding<'_>, parameter: usize) -> Option<Influence> {
+        let number = of.number(telling(of).0, parameter)?;
+        let least = match number.quantity {
+            "alone_greatest" => of.value("alone_least", parameter),
+            _ => 0.0,
+        };
+        let value = number.estimate.value - least;
+        let text = if number.in_unit { shown(value, &of.response.unit) } else { part(value) };
+        value.is_finite().then(|| Influence { value, text, mark: number.mark.clone() })
+    }
+
+    /// Its cell on a shade: by its size, of which the largest of the measure is `most`.
+    fn cell(self, most: f64) -> Cell {
+        let shade = (SHADES * self.value.abs() / most).ceil();
+        match (self.mark, shade >= 1.0) {
+            (None, true) => Cell::Shaded(self.text, shade as usize),
+            (mark, _) => Cell::of(self.text, mark),
+        }
+    }
+}
+
+/// Size of which an influence is a part: 1 for a number without a unit; else the largest of the measure.
+fn most(of: &Finding<'_>) -> f64 {
+    let all = || of.order().filter_map(|i| Influence::of(of, i));
+    let is_of_unit = of.number(telling(of).0, 0).is_some_and(|number| number.in_unit);
+    if is_of_unit { all().map(|one| one.value.abs()).fold(0.0, f64::max) } else { 1.0 }
+}
+
+/// Parameters by their largest influence on any measure, the most important first.
+fn sorted(told: &[(Finding<'_>, String)], parameters: usize) -> Vec<usize> {
+    let most: Vec<f64> = told.iter().map(|(of, _)| most(of)).collect();
+    let largest = |i: usize| {
+        let shares =
+            told.iter().zip(&most).filter_map(|((of, _), most)| Some(Influence::of(of, i)?.value.abs() / most));
+        shares.filter(|share| share.is_finite()).fold(-1.0, f64::max)
     };
-    let value = number.estimate.value - least;
-    let text = if number.in_unit { shown(value, &of.response.unit) } else { part(value) };
-    value.is_finite().then(|| (text, number.mark.clone()))
+    let mut order: Vec<(f64, usize)> = (0..parameters).map(|i| (largest(i), i)).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    order.into_iter().map(|(_, i)| i).collect()
 }
 
 /// Measures that vary, with their headings.
@@ -52,7 +92,8 @@ pub(super) fn section(html: &mut Html, report: &Report) {
     }
     html.text("h2", "What matters for which result");
     let words = "Click a measure for its details. † marks unreliable numbers; hover over one for the reason.";
-    html.text("p class=\"remark\"", &format!("Rows of parameters show {}. {words}", telling(first).1));
+    let order = "The parameter with the largest influence on any result comes first; shades grow with the influence.";
+    html.text("p class=\"remark\"", &format!("Rows of parameters show {}. {order} {words}", telling(first).1));
     let link = |(of, _): &(Finding<'_>, String)| {
         // the rows of the spread have the unit, whatever those of the parameters are
         let unit = shown_unit(&of.response.unit).1;
@@ -66,14 +107,14 @@ pub(super) fn section(html: &mut Html, report: &Report) {
         let cells = cells.map(|(n, of)| Cell::of(shown(n.estimate.value, &of.response.unit), n.mark.clone()));
         std::iter::once(Cell::Words(name)).chain(cells).collect()
     });
+    let most: Vec<f64> = told.iter().map(|(of, _)| most(of)).collect();
     let row = |i: usize| {
-        let cells = told.iter().map(|(of, _)| match cell(of, i) {
-            Some((text, mark)) => Cell::of(text, mark),
-            None => Cell::Number(NONE.to_owned()),
+        let cells = told.iter().zip(&most).map(|((of, _), most)| {
+            Influence::of(of, i).map_or_else(|| Cell::Number(NONE.to_owned()), |found| found.cell(*most))
         });
         std::iter::once(Cell::Words(inputs[i].name.clone())).chain(cells).collect()
     };
-    html.table_under(&heads, &(0..inputs.len()).map(row).collect::<Vec<_>>());
+    html.table_under(&heads, &sorted(&told, inputs.len()).into_iter().map(row).collect::<Vec<_>>());
     html.text("p class=\"remark\"", "Values over all runs, in the unit of each result:");
     html.table_under(&heads, &spread);
 }
@@ -91,13 +132,13 @@ pub fn text(report: &Report) -> String {
     let heads: Vec<String> = told.iter().map(|(_, head)| head.replace('.', ". ").replace('_', " ")).collect();
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
     let mut table = Table::new(&[(Left, &["parameter"]), (Right, &heads)]);
-    for (i, input) in inputs.iter().enumerate() {
-        let cells = told.iter().map(|(of, _)| match cell(of, i) {
-            Some((text, Some(_))) => text + "†",
-            Some((text, None)) => text + " ",
+    for i in sorted(&told, inputs.len()) {
+        let cells = told.iter().map(|(of, _)| match Influence::of(of, i) {
+            Some(Influence { text, mark: Some(_), .. }) => text + "†",
+            Some(Influence { text, .. }) => text + " ",
             None => NONE.to_owned(),
         });
-        table.row(std::iter::once(input.name.clone()).chain(cells));
+        table.row(std::iter::once(inputs[i].name.clone()).chain(cells));
     }
     format!("{}; † unreliable, see the page for the reason\n\n{}", telling(first).1, table.text())
 }

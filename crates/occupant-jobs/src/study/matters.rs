@@ -2,9 +2,12 @@
 
 use occupant_study::analysis::{Estimate, SobolIndices};
 
-use super::{ByDesign, Finding, Linear, caution, plots};
+use super::{ByDesign, Finding, Linear, Number, caution, plots};
 use crate::base::shown::{part, shown};
 use occupant_pictures::html::{Cell, Html};
+
+/// Largest number of pairs on the page.
+const PAIRS: usize = 12;
 
 /// A table column with a row per parameter: heading, quantity, and what to show of it.
 type Column = (&'static str, &'static str, What);
@@ -102,8 +105,31 @@ pub fn by_design(html: &mut Html, of: &Finding<'_>) {
             html.raw(&format!("<div class=\"pair\">\n<figure>{}</figure>\n", picture(of)));
             of.table(html, columns);
             html.raw("</div>\n");
+            pairs(html, of);
         }
     }
+}
+
+/// The pairs of parameters with the largest second-order indices, if the design has them.
+fn pairs(html: &mut Html, of: &Finding<'_>) {
+    let mut found: Vec<&Number> = of.numbers.iter().filter(|number| number.quantity == "sobol_second").collect();
+    if found.is_empty() {
+        return;
+    }
+    found.sort_by(|a, b| b.estimate.value.total_cmp(&a.estimate.value));
+    html.text("h3", "Second-order Sobol indices: what two parameters explain together, beyond each alone");
+    if found.len() > PAIRS {
+        html.text(
+            "p class=\"remark\"",
+            &format!("The {PAIRS} largest of {}; the table beside the page has all.", found.len()),
+        );
+    }
+    let row = |number: &&Number| {
+        let e = &number.estimate;
+        let interval = format!("{} … {}", part(e.low), part(e.high));
+        vec![Cell::Words(of.parameters(number)), Cell::of(part(e.value), number.mark.clone()), Cell::Number(interval)]
+    };
+    html.table(&["pair", "second order", "95 %"], &found.iter().take(PAIRS).map(row).collect::<Vec<_>>());
 }
 
 fn sobol_title(found: &SobolIndices) -> String {

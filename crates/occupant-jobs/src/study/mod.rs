@@ -2,7 +2,11 @@
 //!
 //! ```text
 //! folder of a sweep ─ Stored ─ Samples (a table of inputs and responses) ─ Analysis of each response ─ numbers ─ page, Parquet
+//!                           └ Streams, if there are too many for a table ┘
 //! ```
+//!
+//! A study of more than [`streams::MOST_ROWS`] samples goes by once for its numbers, and once more for the table of samples.
+//! Memory does not grow with its samples.
 
 pub mod analysis;
 pub mod bands;
@@ -22,6 +26,7 @@ mod responses;
 pub mod samples;
 mod sections;
 mod spread_plots;
+pub mod streams;
 mod tables;
 pub mod worst;
 mod writing;
@@ -38,6 +43,7 @@ use crate::quoted::{Limits, Statement, parse_limit};
 use crate::sweep::Stored;
 use analysis::{Analysis, ByDesign, Linear};
 use gather::Gathered;
+use groups::Groups;
 use numbers::{Number, numbers};
 use samples::{Input, Response, Samples};
 
@@ -47,12 +53,15 @@ pub struct Report {
     pub opened: Stored,
     gathered: Gathered,
     /// By response: its analysis, all its numbers, and what can be quoted.
-    analyses: Vec<(Analysis, Vec<Number>, Vec<Statement>)>,
+    analyses: Vec<Analysed>,
     /// Folder of the scenarios of worst and best runs, from the folder of the page; none if they are not written.
     pub runs: Option<String>,
     /// Notes to read before using any number.
     pub notes: Vec<String>,
 }
+
+/// The analysis of a response, all its numbers, what can be quoted, and its values by crossed parameters or words.
+type Analysed = (Analysis, Vec<Number>, Vec<Statement>, Groups);
 
 /// A response with its analysis.
 struct Finding<'a> {
@@ -61,6 +70,7 @@ struct Finding<'a> {
     analysis: &'a Analysis,
     numbers: &'a [Number],
     statements: &'a [Statement],
+    groups: &'a Groups,
     runs: Option<&'a str>,
 }
 
@@ -77,6 +87,13 @@ impl Finding<'_> {
     /// The value of a quantity; NaN without one.
     fn value(&self, quantity: &str, parameter: usize) -> f64 {
         self.number(quantity, parameter).map_or(f64::NAN, |n| n.estimate.value)
+    }
+
+    /// Name of the parameter of a number, or `one × other` of a pair; empty without one.
+    fn parameters(&self, number: &Number) -> String {
+        let names =
+            [number.parameter, number.other].into_iter().flatten().map(|i| self.samples.inputs[i].name.as_str());
+        names.collect::<Vec<_>>().join(" × ")
     }
 
     /// Whether a rule of its own marks a number, not one that marks all of the response.
@@ -99,20 +116,20 @@ impl Report {
         show: Show,
     ) -> Result<Report, Failure> {
         let candidates = responses::candidates(&opened.manifest, names)?;
-        let mut gathered = gather::gather(&opened, &candidates, units, show)?;
+        let limits = limits_of(&opened, limits)?;
+        let mut gathered = gather::gather(&opened, candidates, &limits, units, show)?;
         if names.is_empty() {
             responses::keep_telling(&mut gathered);
         }
-        let limits = limits_of(&opened, limits)?;
         let about = quoting::about(&opened, &gathered, units);
         let responses = gathered.samples.responses.len();
         let bar = show.bar(responses as u64, "results analysed");
         let analyse = |i: usize| {
-            let analysis = Analysis::of(&gathered.samples, i, &opened.plan.study);
+            let analysis = gathered.analysis(i, &opened.plan.study);
             let numbers = numbers(&opened, &gathered, &analysis);
             bar.iter().for_each(|bar| bar.set_position(i as u64 + 1));
             let statements = quoting::statements(&about, &opened, &gathered, &analysis, &limits, units);
-            (analysis, numbers, statements)
+            (analysis, numbers, statements, gathered.groups(i).into_owned())
         };
         let analyses = (0..responses).map(analyse).collect();
         bar.iter().for_each(|bar| bar.clear());
@@ -121,15 +138,15 @@ impl Report {
 
     /// What can be quoted, by response.
     pub fn statements(&self) -> impl Iterator<Item = &Statement> {
-        self.analyses.iter().flat_map(|(.., statements)| statements)
+        self.analyses.iter().flat_map(|(_, _, statements, _)| statements)
     }
 
     /// Results by response.
     fn findings(&self) -> impl Iterator<Item = Finding<'_>> {
         let samples = &self.gathered.samples;
-        self.analyses.iter().map(move |(analysis, numbers, statements)| {
+        self.analyses.iter().map(move |(analysis, numbers, statements, groups)| {
             let response = &samples.responses[analysis.response];
-            Finding { samples, response, analysis, numbers, statements, runs: self.runs.as_deref() }
+            Finding { samples, response, analysis, numbers, statements, groups, runs: self.runs.as_deref() }
         })
     }
 }

@@ -13,6 +13,8 @@ pub struct Number {
     pub quantity: &'static str,
     /// Its parameter, if any.
     pub parameter: Option<usize>,
+    /// The other parameter of a pair.
+    pub other: Option<usize>,
     /// Its run, if any.
     pub run: Option<Run>,
     /// Whether it is in the unit of the response instead of a plain number.
@@ -48,6 +50,7 @@ pub fn numbers(opened: &Stored, gathered: &Gathered, analysis: &Analysis) -> Vec
         list.numbers.extend((0..).zip(runs).map(|(place, (value, (run, caveats)))| Number {
             quantity,
             parameter: None,
+            other: None,
             run: Some(Run { number: *run, place, command: command(&opened.plan, &opened.manifest, *run) }),
             in_unit: true,
             estimate: exactly(*value),
@@ -81,7 +84,7 @@ impl List {
         mark: Option<String>,
     ) {
         let mark = mark.or_else(|| self.mark.clone());
-        self.numbers.push(Number { quantity, parameter, run: None, in_unit, estimate, rows, mark });
+        self.numbers.push(Number { quantity, parameter, other: None, run: None, in_unit, estimate, rows, mark });
     }
 
     fn spread(&mut self, analysis: &Analysis) {
@@ -128,6 +131,11 @@ impl List {
                         self.put((quantity, false), Some(i), *estimate, found.points, mark);
                     }
                 }
+                for ([i, j], estimate) in &found.second {
+                    let mark = caution::index(estimate, *i, found).or_else(|| caution::index(estimate, *j, found));
+                    self.put(("sobol_second", false), Some(*i), *estimate, found.points, mark);
+                    self.numbers.iter_mut().next_back().into_iter().for_each(|number| number.other = Some(*j));
+                }
             }
             ByDesign::Morris(Ok(found)) => {
                 for (i, effect) in found.iter().enumerate() {
@@ -151,7 +159,7 @@ impl List {
                         ("alone_at_least_value", low),
                         ("alone_at_greatest_value", high),
                     ] {
-                        self.put((quantity, true), Some(i), exactly(value), reach.levels.len(), None);
+                        self.put((quantity, true), Some(i), exactly(value), reach.levels, None);
                     }
                 }
             }

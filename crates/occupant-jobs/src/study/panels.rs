@@ -44,7 +44,7 @@ struct Grid<'a> {
 pub fn section(html: &mut Html, report: &Report) {
     let samples = &report.gathered.samples;
     let is_whole = matches!(report.opened.plan.study.design, Design::FullFactorial);
-    let Some(grid) = Grid::of(samples).filter(|_| is_whole) else { return };
+    let Some(grid) = Grid::of(samples).filter(|_| is_whole && samples.one_in <= 1) else { return };
     html.text("h2", "Maps");
     let words = format!(
         "{} to the right, {} upwards; one panel for each combination of the other parameters. Panels of a row share a colour scale.",

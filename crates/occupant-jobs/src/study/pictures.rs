@@ -25,8 +25,8 @@ pub fn pictures(html: &mut Html, of: &Finding<'_>) {
         let words = format!("The {SCATTERS} most important of {}.", drawn.len());
         html.text("p class=\"remark\"", &words);
     }
-    if samples.len() > plots::MOST_DOTS {
-        let every = samples.len().div_ceil(plots::MOST_DOTS);
+    if samples.len() > plots::MOST_DOTS || samples.one_in > 1 {
+        let every = samples.len().div_ceil(plots::MOST_DOTS).max(1) as u64 * samples.one_in.max(1);
         let words = format!("One in {every} samples is drawn; the numbers use all of them.");
         html.text("p class=\"remark\"", &words);
     }

@@ -7,11 +7,12 @@ use occupant_units::trig;
 
 /// Size of a plot without its legend.
 const SIZE: [f64; 2] = [380.0, 290.0];
-/// Height of a plot with word labels: of the axes, and per word.
+/// Height of a plot with word labels: of the axes, per word, and per word if there are many.
 const HEAD: f64 = 84.0;
-const EACH: f64 = 24.0;
-/// Largest number of parameters in a plot with word labels.
-const MOST_WORDS: usize = 16;
+const EACH: [f64; 2] = [24.0, 17.0];
+const MANY: usize = 24;
+/// Largest number of parameters in a plot with word labels; the tables have all.
+const MOST_WORDS: usize = 200;
 /// Largest number of dots.
 pub const MOST_DOTS: usize = 1500;
 
@@ -46,7 +47,7 @@ pub fn morris(of: &Finding<'_>) -> String {
     let (per, unit) = shown_unit(&of.response.unit);
     let mut curves = intervals(of, of.order(), &[("morris_mu_star", "μ*, mean magnitude")]);
     let deviation = |i: usize| of.value("morris_sigma", i) / per;
-    let deviations = of.order().enumerate().map(|(at, i)| [deviation(i), at as f64 + 0.14]);
+    let deviations = of.order().take(MOST_WORDS).enumerate().map(|(at, i)| [deviation(i), at as f64 + 0.14]);
     curves.push(Curve::new("σ, deviation", Style::dots(ORANGE, 7.0), deviations.collect()));
     let x = Axis { includes: Some([0.0, 0.0]), ..Axis::of(&of.response.name, unit) };
     words_figure("Elementary effects over the whole range", of, x, curves)
@@ -179,7 +180,7 @@ fn intervals(
 /// A plot of the parameters in the order of the analysis, by name.
 fn words_figure(what: &str, of: &Finding<'_>, x: Axis, curves: Vec<Curve>) -> String {
     let words = names(of);
-    let height = HEAD + EACH * words.len().max(2) as f64;
+    let height = HEAD + EACH[usize::from(words.len() > MANY)] * words.len().max(2) as f64;
     let title = format!("{what}: {}", of.response.name);
     inline(&Figure::new(&title, [x, Axis::of_words("", words)], curves), [1.1 * SIZE[0], height])
 }

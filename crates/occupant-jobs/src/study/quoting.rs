@@ -1,12 +1,13 @@
 //! Statements of a study: what its runs say of each response, for the page, the terminal, JSON and a table.
 
 use occupant_study::certainty::Histogram;
+use occupant_study::sketch::Sketch;
 use occupant_study::{Design, Study};
 use serde::Serialize;
 
 use super::gather::Spoiled;
 use super::spread_plots::{distribution, histogram};
-use super::{Analysis, Gathered, Report, analysis, groups};
+use super::{Analysis, Gathered, Report};
 use crate::base::shown::{shown, shown_unit};
 use crate::base::{Told, Units, describe};
 use crate::quoted::{About, LeftOut, Limits, Sampling, Statement, Values, percent};
@@ -45,7 +46,7 @@ pub fn about(opened: &Stored, gathered: &Gathered, units: Units) -> About {
         (false, 1) => (["run".to_owned(), "runs".to_owned()], ends.finished()),
         (false, n) => {
             let of = |noun: &str| format!("{noun} (each the median of {n} runs with small changes)");
-            ([of("sample"), of("samples")], gathered.samples.len() as u64)
+            ([of("sample"), of("samples")], gathered.len())
         }
     };
     let title =
@@ -126,33 +127,35 @@ pub fn statements(
 ) -> Vec<Statement> {
     let response = &gathered.samples.responses[analysis.response];
     let Spoiled { runs, of, names } = &gathered.spoiled[analysis.response];
-    let names: Vec<String> = names.iter().cloned().collect();
+    let names: Vec<String> = names.keys().cloned().collect();
+    let values = gathered.values(analysis.response);
     let plain = Values {
         figure: &response.name,
         unit: &response.unit.si,
         case: None,
-        values: &response.values,
+        values: &values,
         unchanged: None,
         caveats: (*runs, *of, &names),
     };
     let say = |values: &Values<'_>, about: &About| Statement::of(about, values, limits, units);
-    if let Some((unchanged, values)) = gathered.members.get(analysis.response).and_then(|all| all.split_first()) {
+    if let Some((unchanged, values)) = gathered.members.get(analysis.response) {
         return say(&Values { values, unchanged: Some(*unchanged), ..plain }, about).into_iter().collect();
     }
     let samples = &gathered.samples;
     if opened.plan.study.crossing() > 1 {
-        let Some(cases) = groups::crossed(samples, &response.values) else {
+        let groups = gathered.groups(analysis.response);
+        let Some(cases) = groups.named(&samples.inputs) else {
             let why = "crossed values share their samples, and there are too many combinations to list".to_owned();
             let about = About { sampling: Sampling::None(why), ..about.clone() };
             return say(&plain, &about).into_iter().collect();
         };
-        let of_case = |(case, values): &(String, Vec<f64>)| say(&Values { case: Some(case), values, ..plain }, about);
+        let of_case = |(case, values): &(String, &Sketch)| say(&Values { case: Some(case), values, ..plain }, about);
         return cases.iter().filter_map(of_case).collect();
     }
     if matches!(opened.plan.study.design, Design::Saltelli { .. }) {
-        let rows = analysis::independent(samples);
-        let values: Vec<f64> = rows.iter().map(|row| response.values[*row]).collect();
-        let simulated = format!("{}; of these the {} of blocks A and B", about.simulated, rows.len());
+        let values = gathered.independent(analysis.response);
+        let rows = values.len() + values.missing();
+        let simulated = format!("{}; of these the {rows} of blocks A and B", about.simulated);
         let about = About { simulated, left_out: Vec::new(), ..about.clone() };
         return say(&Values { values: &values, ..plain }, &about).into_iter().collect();
     }

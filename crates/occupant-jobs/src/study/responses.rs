@@ -5,7 +5,6 @@ use occupant_core::results::channel::star;
 use placed_text::nearest;
 
 use super::Gathered;
-use super::samples::varies;
 use crate::base::Failure;
 use crate::ensemble::judge::is_result;
 use crate::files::study_folder::{Column, Manifest, Role};
@@ -53,17 +52,19 @@ fn unknown(manifest: &Manifest, name: &str) -> Failure {
 
 /// Keeps the first default figures that vary, or the first ones if none does.
 pub fn keep_telling(gathered: &mut Gathered) {
-    let responses = &gathered.samples.responses;
+    let responses = gathered.samples.responses.len();
     let members = &gathered.members;
-    let does = |i: &usize| varies(&responses[*i].values) || members.get(*i).is_some_and(|values| varies(values));
-    let mut kept: Vec<usize> = (0..responses.len()).filter(does).take(MOST).collect();
+    let does = |i: &usize| gathered.values(*i).varies() || members.get(*i).is_some_and(|(_, others)| others.varies());
+    let mut kept: Vec<usize> = (0..responses).filter(does).take(MOST).collect();
     if kept.is_empty() {
-        kept.extend((!responses.is_empty()).then_some(0));
+        kept.extend((responses > 0).then_some(0));
     }
     keep(&mut gathered.samples.responses, &kept);
     keep(&mut gathered.extremes, &kept);
     keep(&mut gathered.spoiled, &kept);
     keep(&mut gathered.members, &kept);
+    keep(&mut gathered.figures, &kept);
+    gathered.streams.iter_mut().for_each(|streams| keep(&mut streams.responses, &kept));
 }
 
 /// Keeps the items at these indices.

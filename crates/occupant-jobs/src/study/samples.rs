@@ -15,6 +15,8 @@ pub struct Samples {
     pub inputs: Vec<Input>,
     /// Responses.
     pub responses: Vec<Response>,
+    /// Of a study too large for a table of all: one of so many samples is in it; 0 if all are.
+    pub one_in: u64,
 }
 
 /// A parameter's column.
@@ -32,6 +34,8 @@ pub struct Input {
     pub by_ratios: bool,
     /// Whether each of its values was run with every sample of the other parameters.
     pub crossed: bool,
+    /// Least and greatest value of all samples, if not all are in the table.
+    pub beyond: Option<[f64; 2]>,
 }
 
 /// A figure's column.
@@ -104,7 +108,7 @@ impl Input {
 
     /// Whether it has more than one value.
     pub fn varies(&self) -> bool {
-        varies(&self.values)
+        self.beyond.map_or_else(|| varies(&self.values), |ends| varies(&ends))
     }
 }
 

@@ -27,6 +27,13 @@ pub fn study(html: &mut Html, report: &Report) {
     if !manifest.overrides.is_empty() {
         facts.push(("changes on the command line", manifest.overrides.join(", ")));
     }
+    let one_in = report.gathered.samples.one_in;
+    if one_in > 1 {
+        facts.push((
+            "large study",
+            format!("rank correlations and dots are of one in {one_in} samples; all else is of all samples"),
+        ));
+    }
     html.text("h2", "The study");
     html.facts(&facts);
 }

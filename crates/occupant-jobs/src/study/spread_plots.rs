@@ -1,7 +1,6 @@
 //! Histogram and distribution of a figure as plots.
 
 use occupant_study::certainty::Histogram;
-use occupant_study::spread::sorted;
 
 use super::quoting::bars;
 use crate::base::Told;
@@ -34,9 +33,12 @@ pub fn histogram(of: &Statement, counted: &Histogram, unit: &Told) -> String {
 /// Fraction of the values up to each value, with its limits and the middle 95 %.
 pub fn distribution(of: &Statement, unit: &Told) -> String {
     let (per, symbol) = shown_unit(unit);
-    let sorted = sorted(&of.values);
-    let n = sorted.len() as f64;
-    let steps = sorted.iter().enumerate().flat_map(|(i, x)| [[x / per, i as f64 / n], [x / per, (i + 1) as f64 / n]]);
+    let n = of.values.len() as f64;
+    let mut below = 0;
+    let steps = of.values.steps().flat_map(|(x, upto)| {
+        let from = std::mem::replace(&mut below, upto);
+        [from, upto].map(|count| [x / per, count as f64 / n])
+    });
     let mut curves = vec![Curve::new("values up to it", Style::line(BLUE, 1.6), steps.collect())];
     let ends = [0.025, 0.975].iter().filter_map(|part| of.quantile(*part));
     let middle = ends.flat_map(|q| [[q.value / per, 0.0], [q.value / per, 1.0], [f64::NAN; 2]]).collect();
@@ -53,7 +55,7 @@ fn title(what: &str, of: &Statement) -> String {
 /// The lowest limits near the values, as upright lines.
 fn limits(of: &Statement, unit: &Told, top: f64) -> Vec<Curve> {
     let per = shown_unit(unit).0;
-    let greatest = of.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let greatest = of.values.greatest().unwrap_or(f64::NEG_INFINITY);
     let mut levels: Vec<f64> =
         of.limits.iter().map(|limit| limit.most).filter(|most| *most <= 2.0 * greatest).collect();
     levels.sort_unstable_by(f64::total_cmp);

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use super::gather::{Sample, each_sample};
 use super::quoting::bars;
 use super::{Finding, Number, Report};
 use crate::base::{Existing, Failure};
 use crate::quoted::Statement;
 use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
-use occupant_study::spread::sorted;
 
 /// Files of a report's tables.
 #[derive(Clone, Debug)]
@@ -66,7 +66,7 @@ fn row(of: &Finding<'_>, number: &Number) -> Vec<Cell> {
     let mut row = vec![
         Cell::text(&of.response.name),
         Cell::text(number.quantity),
-        Cell::text(number.parameter.map_or("", |i| &of.samples.inputs[i].name)),
+        Cell::text(&of.parameters(number)),
         run.map_or(Cell::Absent, |run| Cell::count(run.number)),
     ];
     row.extend([e.value, e.low, e.high].map(Cell::finite));
@@ -127,13 +127,14 @@ fn rows_of(of: &Statement) -> Vec<Vec<Cell>> {
             .flat_map(bars)
             .map(|(from, to, count)| row("bar", [from, to, count as f64 / n, none, none], count, "")),
     );
-    let values = sorted(&of.values).into_iter().enumerate();
-    rows.extend(values.map(|(i, x)| row("value", [x, none, (i + 1) as f64 / n, none, none], i + 1, "")));
+    rows.extend(of.values.steps().map(|(x, upto)| row("value", [x, none, upto as f64 / n, none, none], upto, "")));
     rows
 }
 
+/// One row for each sample, also of those that are not in the table of samples.
 fn samples(report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {
-    let samples = &report.gathered.samples;
+    let gathered = &report.gathered;
+    let samples = &gathered.samples;
     let mut columns = vec![("sample".to_owned(), Kind::Count)];
     let mut units = serde_json::Map::new();
     for input in &samples.inputs {
@@ -152,6 +153,10 @@ fn samples(report: &Report, path: &Path, existing: Existing) -> Result<(), Failu
         ("occupant.units", serde_json::Value::Object(units).to_string()),
     ];
     let mut table = TableFile::create(path.to_owned(), Form::Parquet, existing, &columns, &about)?;
+    if samples.one_in > 1 {
+        each_sample(&report.opened, &gathered.figures, |sample| table.row(cells(&sample, samples.inputs.len())))?;
+        return table.publish().map(|_| ());
+    }
     for (i, number) in samples.numbers.iter().enumerate() {
         let mut row = vec![Cell::count(*number)];
         for input in &samples.inputs {
@@ -167,4 +172,12 @@ fn samples(report: &Report, path: &Path, existing: Existing) -> Result<(), Failu
         table.row(row)?;
     }
     table.publish().map(|_| ())
+}
+
+/// A sample with so many inputs as a row.
+fn cells(sample: &Sample, inputs: usize) -> Vec<Cell> {
+    let mut row = vec![Cell::count(sample.number)];
+    row.extend(sample.first.cells.iter().take(inputs).cloned());
+    row.extend(sample.values.iter().map(|value| Cell::finite(*value)));
+    row
 }

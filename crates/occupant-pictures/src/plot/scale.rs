@@ -56,13 +56,22 @@ impl Scale {
         }
     }
 
-    /// A logarithmic scale: ticks at powers of ten, and at 2 and 5 times these if there are few.
+    /// A logarithmic scale: ticks at powers of ten; if these are fewer than three, at 2 and 5 times these, at all multiples, or at
+    /// round steps.
     pub fn of_powers([low, high]: [f64; 2]) -> Self {
         let [low, high] = if high - low > 1e-9 { [low, high] } else { [low - 0.1, high + 0.1] };
-        let times: &[f64] = if high - low > 2.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
-        let decades = (low.floor() as i32..=high.ceil() as i32).take(100);
-        let all = decades.flat_map(|decade| times.iter().map(move |times| f64::from(decade) + trig::log10(*times)));
-        let ticks = all.filter(|tick| (low - 1e-9..=high + 1e-9).contains(tick)).collect();
+        let within = |times: &[f64]| -> Vec<f64> {
+            let decades = (low.floor() as i32..=high.ceil() as i32).take(100);
+            let all = decades.flat_map(|decade| times.iter().map(move |times| f64::from(decade) + trig::log10(*times)));
+            all.filter(|tick| (low - 1e-9..=high + 1e-9).contains(tick)).collect()
+        };
+        let multiples: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
+        let finer = &multiples[usize::from(high - low <= 2.0)..];
+        let steps = || {
+            let linear = Scale::inside([low, high].map(|end| trig::pow(10.0, end)), 4).ticks;
+            linear.into_iter().filter(|tick| *tick > 0.0).map(trig::log10).collect()
+        };
+        let ticks = finer.iter().map(|times| within(times)).find(|ticks| ticks.len() >= 3).unwrap_or_else(steps);
         Scale { range: [low, high], ticks, exponent: 0, decimals: 0, words: Vec::new(), is_of_powers: true }
     }
 
@@ -196,6 +205,14 @@ mod tests {
         let scale = Scale::of_powers([10_f64.log10(), 400_f64.log10()]);
         let figures: Vec<String> = scale.ticks.iter().map(|tick| scale.figures(*tick)).collect();
         assert_eq!(figures, ["10", "20", "50", "100", "200"]);
+        let told = |from: f64, to: f64| {
+            let scale = Scale::of_powers([from.log10(), to.log10()]);
+            scale.ticks.iter().map(|tick| scale.figures(*tick)).collect::<Vec<_>>()
+        };
+        assert_eq!(told(2.0, 5.0), ["2", "3", "4", "5"]);
+        assert_eq!(told(2.1, 2.9), ["2.2", "2.4", "2.6", "2.8"]);
+        assert_eq!(told(30.0, 31.0), ["30", "30.2", "30.4", "30.6", "30.8", "31"]);
+        assert_eq!(told(0.6, 250.0), ["1", "10", "100"]);
         let wide = Scale::of_powers([-3.0, 3.0]);
         assert_eq!(wide.figures(wide.ticks[0]), "0.001");
         assert_eq!((wide.ticks.len(), wide.place(0.0)), (7, 0.5));

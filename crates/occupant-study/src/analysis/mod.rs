@@ -8,12 +8,14 @@ mod bootstrap;
 mod indices;
 mod regression;
 mod screening;
+mod sums;
 
 use thiserror::Error;
 
-pub use indices::{SobolIndices, sobol_indices};
-pub use regression::{RankCorrelation, Regression, rank_correlation, ranks, regression};
-pub use screening::{Effect, screening};
+pub use indices::{SobolIndices, SobolPoint, SobolSums, sobol_indices};
+pub use regression::{RankCorrelation, Regression, RegressionSums, rank_correlation, ranks, regression};
+pub use screening::{Effect, EffectSums, screening};
+pub use sums::Grouping;
 
 /// A number with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

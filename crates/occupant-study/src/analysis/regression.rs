@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::sums::{Grouping, Sums};
 use super::{AnalysisError, Estimate, at_rows, bootstrap, complete_rows, deviation, mean};
 use occupant_units::trig;
 
@@ -92,6 +93,107 @@ pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<
         explained: 1.0 - error / (rows.len() - 1) as f64,
         rows: rows.len(),
     })
+}
+
+/// Normal equations of a regression over a stream of rows, exact for all of them, in memory that does not grow with them.
+#[derive(Clone, Debug)]
+pub struct RegressionSums {
+    parameters: usize,
+    /// Count, Σz, and the lower triangle of Σzzᵀ by rows, with z the parameters and the figure from those of the first row.
+    sums: Sums,
+    origin: Vec<f64>,
+    /// The present z.
+    row: Vec<f64>,
+    rows: usize,
+}
+
+impl RegressionSums {
+    /// No rows yet, of so many parameters; the rows are divided by the seed.
+    pub fn new(parameters: usize, seed: u64) -> Self {
+        let n = parameters + 1;
+        let sums = Sums::new(1 + n + n * (n + 1) / 2, Grouping::Groups(seed));
+        RegressionSums { parameters, sums, origin: Vec::new(), row: Vec::new(), rows: 0 }
+    }
+
+    /// Adds the row with this index; one with a value that is not finite is left out.
+    pub fn see(&mut self, index: u64, parameters: impl Iterator<Item = f64>, figure: f64) {
+        self.row.clear();
+        self.row.extend(parameters.take(self.parameters).chain([figure]));
+        if self.row.len() != self.parameters + 1 || self.row.iter().any(|x| !x.is_finite()) {
+            return;
+        }
+        if self.rows == 0 {
+            self.origin.clone_from(&self.row);
+        }
+        self.rows += 1;
+        self.row.iter_mut().zip(&self.origin).for_each(|(z, origin)| *z -= origin);
+        let sums = self.sums.of_row(index);
+        sums[0] += 1.0;
+        let (linear, mut products) = sums[1..].split_at_mut(self.row.len());
+        for (i, (sum, z)) in linear.iter_mut().zip(&self.row).enumerate() {
+            *sum += z;
+            let (own, rest) = products.split_at_mut(i + 1);
+            own.iter_mut().zip(&self.row).for_each(|(sum, other)| *sum += z * other);
+            products = rest;
+        }
+    }
+
+    /// The parameters that vary, by their numbers, and the regression on them.
+    ///
+    /// # Errors
+    /// As of [`regression`]; no parameter that varies is [`AnalysisError::Constant`].
+    pub fn regression(&self, seed: u64) -> Result<(Vec<usize>, Regression), AnalysisError> {
+        let k = self.parameters;
+        let total = self.sums.total();
+        let varies = |i: &usize| {
+            let mean = total[1 + i] / total[0];
+            let deviation = (self.covariance(&total, *i, *i) / (total[0] - 1.0)).sqrt();
+            deviation > 1e-12 * (mean + self.origin[*i]).abs()
+        };
+        let needed = |parameters: usize| AnalysisError::TooFew { found: self.rows, needed: 2 * parameters + 5 };
+        if self.rows < 5 {
+            return Err(needed(k));
+        }
+        let which: Vec<usize> = (0..k).filter(varies).collect();
+        match (which.len(), varies(&k)) {
+            (0, _) => return Err(AnalysisError::Constant { parameter: Some(0) }),
+            (_, false) => return Err(AnalysisError::Constant { parameter: None }),
+            (n, _) if self.rows < 2 * n + 5 => return Err(needed(n)),
+            _ => {}
+        }
+        let (slopes, explained) = self.solve(&total, &which).ok_or(AnalysisError::Dependent)?;
+        let of = |sums: &[f64]| {
+            let found = self.solve(sums, &which);
+            found.map_or_else(|| vec![f64::NAN; slopes.len()], |(slopes, _)| slopes)
+        };
+        let coefficients = self.sums.intervals(seed, which.len(), of);
+        Ok((which, Regression { coefficients, explained, rows: self.rows }))
+    }
+
+    /// Σ(zᵢ − mean)(zⱼ − mean), i ≥ j.
+    fn covariance(&self, sums: &[f64], i: usize, j: usize) -> f64 {
+        let products = &sums[2 + self.parameters..];
+        products[i * (i + 1) / 2 + j] - sums[1 + i] * sums[1 + j] / sums[0]
+    }
+
+    /// Standardised coefficients and R²; none if the parameters depend on one another.
+    fn solve(&self, sums: &[f64], which: &[usize]) -> Option<(Vec<f64>, f64)> {
+        let figure = self.parameters;
+        let scale = |i: usize| self.covariance(sums, i, i).sqrt();
+        let scales: Vec<f64> = which.iter().map(|i| scale(*i)).collect();
+        let between = |r: usize, c: usize| {
+            let (i, j) = (which[r].max(which[c]), which[r].min(which[c]));
+            self.covariance(sums, i, j) / scales[r] / scales[c]
+        };
+        let matrix = DMatrix::from_fn(which.len(), which.len(), between);
+        let with_figure = |r: usize, _| self.covariance(sums, figure, which[r]) / scales[r] / scale(figure);
+        let right = DVector::from_fn(which.len(), with_figure);
+        let factor = matrix.cholesky()?;
+        // a pivot lost in rounding means dependent columns
+        (factor.l_dirty().diagonal().min() > 1e-7).then_some(())?;
+        let slopes = factor.solve(&right);
+        Some((slopes.iter().copied().collect(), slopes.dot(&right)))
+    }
 }
 
 /// Values minus their mean, divided by their standard deviation; none for a constant column.

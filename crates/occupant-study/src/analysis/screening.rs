@@ -5,7 +5,8 @@
 //! Softw. 22 (2007)), σ the standard deviation. A large μ* means that the parameter matters; a large σ as well means
 //! interaction or nonlinearity.
 
-use super::{AnalysisError, Estimate, bootstrap, deviation};
+use super::sums::{Grouping, Sums};
+use super::{AnalysisError, Estimate};
 
 /// Smallest number of trajectories for an effect.
 const LEAST_TRAJECTORIES: usize = 4;
@@ -31,27 +32,60 @@ pub struct Effect {
 /// # Errors
 /// Fewer than 4 effects of a parameter.
 pub fn screening(effects: &[Vec<f64>], seed: u64) -> Result<Vec<Effect>, AnalysisError> {
-    effects.iter().map(|all| effect(all, seed)).collect()
+    let sums_of = |all: &Vec<f64>| {
+        let mut sums = EffectSums::new(Grouping::Rows);
+        all.iter().for_each(|effect| sums.see(0, *effect));
+        sums
+    };
+    effects.iter().map(|all| sums_of(all).effect(seed)).collect()
 }
 
-fn effect(all: &[f64], seed: u64) -> Result<Effect, AnalysisError> {
-    let effects: Vec<f64> = all.iter().copied().filter(|e| e.is_finite()).collect();
-    let found = effects.len();
-    if found < LEAST_TRAJECTORIES {
-        return Err(AnalysisError::TooFew { found, needed: LEAST_TRAJECTORIES });
+/// Sums over the effects of one parameter: memory does not grow with them if they are grouped.
+#[derive(Clone, Debug)]
+pub struct EffectSums {
+    /// Count, Σe, Σ|e|, Σ(e − e₁)², Σ(e − e₁), with e₁ the first effect, so that no digits are lost.
+    sums: Sums,
+    first: Option<f64>,
+    effects: usize,
+    dropped: usize,
+}
+
+impl EffectSums {
+    /// No effects yet.
+    pub fn new(by: Grouping) -> Self {
+        EffectSums { sums: Sums::new(5, by), first: None, effects: 0, dropped: 0 }
     }
-    let of = |rows: &[usize]| {
-        let count = rows.len() as f64;
-        let sum: f64 = rows.iter().map(|&r| effects[r]).sum();
-        let magnitudes: f64 = rows.iter().map(|&r| effects[r].abs()).sum();
-        vec![sum / count, magnitudes / count]
-    };
-    let both = bootstrap::intervals(seed, found, 2, of);
-    Ok(Effect {
-        mean: both[0],
-        mean_magnitude: both[1],
-        deviation: deviation(&effects),
-        effects: found,
-        dropped: all.len() - found,
-    })
+
+    /// Adds the effect along a trajectory; one that is not finite is left out and counted.
+    pub fn see(&mut self, trajectory: u64, effect: f64) {
+        if !effect.is_finite() {
+            self.dropped += 1;
+            return;
+        }
+        self.effects += 1;
+        let from_first = effect - *self.first.get_or_insert(effect);
+        let terms = [1.0, effect, effect.abs(), from_first * from_first, from_first];
+        self.sums.of_row(trajectory).iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+    }
+
+    /// The effect of the parameter.
+    ///
+    /// # Errors
+    /// Fewer than 4 effects.
+    pub fn effect(&self, seed: u64) -> Result<Effect, AnalysisError> {
+        let found = self.effects;
+        if found < LEAST_TRAJECTORIES {
+            return Err(AnalysisError::TooFew { found, needed: LEAST_TRAJECTORIES });
+        }
+        let both = self.sums.intervals(seed, 2, |sums| vec![sums[1] / sums[0], sums[2] / sums[0]]);
+        let total = self.sums.total();
+        let squares = total[3] - total[4] * total[4] / total[0];
+        Ok(Effect {
+            mean: both[0],
+            mean_magnitude: both[1],
+            deviation: (squares.max(0.0) / (total[0] - 1.0)).sqrt(),
+            effects: found,
+            dropped: self.dropped,
+        })
+    }
 }

@@ -44,7 +44,7 @@ fn ranks_are_the_innermost_ones_with_two_and_a_half_per_cent_to_each_side() {
 fn the_estimate_lies_within_its_interval_and_large_samples_do_not_underflow() {
     for n in (1..400).chain([1_000, 20_000, 1_000_000]) {
         let values: Vec<f64> = (0..n).map(|i| i as f64).collect();
-        for q in quantiles(&values) {
+        for q in quantiles(&Ordered::of(&values)) {
             assert!(q.low.is_none_or(|low| low <= q.value) && q.high.is_none_or(|high| high >= q.value), "{n} {q:?}");
         }
     }
@@ -63,7 +63,7 @@ fn intervals_cover_the_true_quantiles_of_three_distributions() {
         for n in [60, 200] {
             let mut covered = [0_u32; PARTS.len()];
             for seed in 0..SAMPLES {
-                for (i, q) in quantiles(&sample(seed, n, of)).iter().enumerate() {
+                for (i, q) in quantiles(&Ordered::of(&sample(seed, n, of))).iter().enumerate() {
                     let truth = of(q.part);
                     let misses = q.low.is_some_and(|low| low > truth) || q.high.is_some_and(|high| high <= truth);
                     covered[i] += u32::from(!misses);
@@ -89,7 +89,7 @@ fn quantiles_of_a_linear_model_are_found() {
         p if p <= 2.0 / 3.0 => 2.0 + 3.0 * (p - 1.0 / 3.0),
         p => 5.0 - (12.0 * (1.0 - p)).sqrt(),
     };
-    for q in quantiles(&values) {
+    for q in quantiles(&Ordered::of(&values)) {
         let truth = truth(q.part);
         assert!(q.low.unwrap() <= truth && truth <= q.high.unwrap(), "{q:?} {truth}");
         worst = worst.max((q.value - truth).abs());
@@ -97,7 +97,7 @@ fn quantiles_of_a_linear_model_are_found() {
     // measured: 0.015
     assert!(worst < 0.03, "{worst}");
     // P(y > 4) = 1/12
-    let e = exceedance(&values, 4.0).unwrap();
+    let e = exceedance(&Sketch::exact(&values), 4.0).unwrap();
     assert!(e.low < 1.0 / 12.0 && 1.0 / 12.0 < e.high && (e.probability - 1.0 / 12.0).abs() < 0.005, "{e:?}");
 }
 
@@ -125,9 +125,9 @@ fn wilsons_interval_has_its_published_values_and_its_coverage() {
 
 #[test]
 fn a_limit_is_exceeded_only_by_what_is_above_it() {
-    let e = exceedance(&[1.0, 2.0, f64::NAN, 3.0, 2.0], 2.0).unwrap();
+    let e = exceedance(&Sketch::exact(&[1.0, 2.0, f64::NAN, 3.0, 2.0]), 2.0).unwrap();
     assert_eq!((e.above, e.of, e.probability), (1, 4, 0.25));
-    assert_eq!(exceedance(&[f64::NAN], 2.0), None);
+    assert_eq!(exceedance(&Sketch::exact(&[f64::NAN]), 2.0), None);
     // 0.5 needs most: 2·1.96·0.5/√n = 0.1 at n = 384, less z² of Wilson's
     assert_eq!((needed_for(0.5), needed_for(0.0)), (381, 35));
 }
@@ -135,7 +135,7 @@ fn a_limit_is_exceeded_only_by_what_is_above_it() {
 #[test]
 fn a_histogram_counts_each_value_once_between_round_ends() {
     let values = sample(3, 500, |u| 0.5 + 0.1 * normal::quantile(u));
-    let found = histogram(&values, 1e-3).unwrap();
+    let found = histogram(&Ordered::of(&values), 1e-3).unwrap();
     assert_eq!(found.counts.iter().sum::<usize>(), 500);
     // 2·IQR·n^(−1/3) = 34 mm
     assert!((found.width - 0.05).abs() < 1e-12 && (found.from / 0.05 - (found.from / 0.05).round()).abs() < 1e-9);
@@ -143,10 +143,10 @@ fn a_histogram_counts_each_value_once_between_round_ends() {
         let [from, to] = [i, i + 1].map(|i| found.from + i as f64 * found.width);
         assert_eq!(*count, values.iter().filter(|x| (from..to).contains(*x)).count());
     }
-    assert_eq!((histogram(&[2.0, 2.0], 1.0), histogram(&[], 1.0)), (None, None));
+    assert_eq!((histogram(&Ordered::of(&[2.0, 2.0]), 1.0), histogram(&Ordered::default(), 1.0)), (None, None));
     // most alike, one far away: no more bars than can be drawn
     let mut far = vec![1.0; 100];
     far.push(1e6);
-    assert!(histogram(&far, 1.0).unwrap().counts.len() <= 42);
+    assert!(histogram(&Ordered::of(&far), 1.0).unwrap().counts.len() <= 42);
     assert_eq!([0.0021, 3.4, 7.0, 1.0, 50.0].map(round_up), [0.005, 5.0, 10.0, 1.0, 50.0]);
 }
