@@ -133,6 +133,8 @@ pub struct Study {
     pub keep: Keep,
     /// Whether the table of results is also written as CSV.
     pub csv: bool,
+    /// Patterns of the measures kept in the table; all if there are none.
+    pub measures: Vec<String>,
     /// Warnings of a study that can be run.
     pub warnings: Diagnostics,
 }
@@ -171,6 +173,7 @@ impl Study {
             ensemble: Some(Ensemble { members: members.max(1), perturbations }),
             keep: Keep::None,
             csv: false,
+            measures: Vec::new(),
             warnings: Diagnostics::new(),
         }
     }

@@ -224,4 +224,7 @@ pub struct PerturbationSection {
 pub struct StudyOutputSection {
     /// Whether the table is also written as CSV; false if absent.
     pub csv: Option<bool>,
+    /// Measures that the table keeps, by their columns' names, with `*` for any part: `["hic15", "chest*"]`. All if absent.
+    #[schemars(extend("minItems" = 1))]
+    pub measures: Option<Vec<String>>,
 }

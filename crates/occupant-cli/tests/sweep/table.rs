@@ -4,7 +4,7 @@ use std::fs::{self, File};
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::{STUDY, column, done, folder_with, rows};
+use super::{STUDY, answer, column, done, err, folder_with, rows};
 
 #[test]
 fn a_sweep_writes_a_row_for_each_sample_the_same_for_any_number_of_threads() {
@@ -102,4 +102,27 @@ fn a_sample_that_is_refused_or_fails_is_a_row_with_its_reason() {
     // a run that failed has the figures of its work and none else
     assert_eq!(column(&table, "head.peak")[1..], ["", "", ""]);
     assert!(!column(&table, "solver.evaluations")[1].is_empty());
+}
+
+#[test]
+fn a_study_keeps_the_measures_that_it_names() {
+    let folder = folder_with(&format!("{STUDY}\n[output]\nmeasures = [\"hic15\", \"head.*\"]\n"));
+    let at = folder.path();
+    done(at, &["sweep", "study.toml", "-o", "few", "--csv", "--quiet"]);
+    let few = rows(at, "few");
+    let names: Vec<&str> = few[0].split(',').collect();
+    assert_eq!(&names[..3], ["index", "input.joints.neck.damping", "input.speed"]);
+    let measures: Vec<&str> = names.iter().copied().filter(|n| !n.starts_with("input.")).collect();
+    assert!(measures.contains(&"hic15") && measures.contains(&"head.peak"), "{names:?}");
+    assert!(!names.iter().any(|n| n.starts_with("chest") || n.starts_with("solver")), "{names:?}");
+    fs::write(at.join("all.toml"), STUDY).unwrap();
+    done(at, &["sweep", "all.toml", "-o", "full", "--csv", "--quiet"]);
+    let full = rows(at, "full");
+    for name in ["hic15", "head.peak", "caveats", "status"] {
+        assert_eq!(column(&few, name), column(&full, name), "{name}");
+    }
+    done(at, &["study", "report", "few"]);
+    fs::write(at.join("study.toml"), format!("{STUDY}\n[output]\nmeasures = [\"hic16\"]\n")).unwrap();
+    let said = err(&answer(at, &["sweep", "study.toml", "-o", "none"]));
+    assert!(said.contains("output.measures: no measure is `hic16`") && said.contains("hic15"), "{said}");
 }

@@ -4,6 +4,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
+use occupant_core::results::channel::star;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::attempt;
 use occupant_scenario::{Diagnostics, Draft, Loaded, names_file};
@@ -229,8 +230,21 @@ impl Plan {
             columns.push(number("ensemble.member", ""));
         }
         let figure = |f: Figure| Column { name: f.name, unit: f.unit.to_owned(), role: Role::Figure };
-        columns.extend(self.figures()?.into_iter().map(figure));
+        columns.extend(self.kept(self.figures()?)?.into_iter().map(figure));
         Ok(columns)
+    }
+
+    /// The figures that the study keeps.
+    fn kept(&self, mut figures: Vec<Figure>) -> Result<Vec<Figure>, Failure> {
+        let patterns = &self.study.measures;
+        let is_of = |pattern: &String, figure: &Figure| star(pattern, &figure.name).is_some();
+        if let Some(lost) = patterns.iter().find(|pattern| !figures.iter().any(|figure| is_of(pattern, figure))) {
+            let names: Vec<&str> = figures.iter().map(|figure| figure.name.as_str()).collect();
+            let help = format!("the measures are {}", names.join(", "));
+            return Err(Failure::with_help(format!("output.measures: no measure is `{lost}`"), &help));
+        }
+        figures.retain(|figure| patterns.is_empty() || patterns.iter().any(|pattern| is_of(pattern, figure)));
+        Ok(figures)
     }
 
     /// Figures of the first scenario that can be run.

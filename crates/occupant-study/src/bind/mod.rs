@@ -59,6 +59,7 @@ impl StudyText {
             Design::Saltelli { .. } => 2 * parameters.len(),
             _ => parameters.len(),
         };
+        let output = self.section.output.as_ref();
         Ok(Study {
             base: base.prepared(),
             base_name: self.section.base.clone(),
@@ -70,7 +71,8 @@ impl StudyText {
             copula,
             ensemble,
             keep,
-            csv: self.section.output.as_ref().and_then(|o| o.csv).unwrap_or(false),
+            csv: output.and_then(|o| o.csv).unwrap_or(false),
+            measures: output.and_then(|o| o.measures.clone()).unwrap_or_default(),
             warnings,
         })
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::base::{Failure, print};
 use occupant_jobs::base::text_table::facts;
 use occupant_jobs::files::study_folder::finished::ranges_text;
+use occupant_jobs::files::study_folder::{Journal, Status};
 use occupant_jobs::sweep::Census;
 use occupant_jobs::sweep::stored::{MadeBy, Stored, open};
 use occupant_jobs::sweep::words::ended;
@@ -21,6 +22,10 @@ pub(crate) struct StatusArgs {
     /// Print all missing samples as FROM-TO, one range per line: `occupant sweep --range` computes one
     #[arg(long)]
     missing: bool,
+
+    /// Print all samples that did not complete, one per line: number, status, reason, parted by tabs
+    #[arg(long, conflicts_with = "missing")]
+    failed: bool,
 }
 
 /// Most ranges of missing samples in the text.
@@ -34,8 +39,24 @@ pub(crate) fn status(args: &StatusArgs) -> Result<(), Failure> {
         let lines: Vec<String> = gaps.iter().map(|gap| format!("{}-{}\n", gap.start, gap.end - 1)).collect();
         return print(&lines.concat());
     }
+    if args.failed {
+        return print(&failed(&journal)?);
+    }
     let (census, spent_s) = journal.census()?;
     print(&text(&census, spent_s, &ranges_text(&gaps, RANGES)))
+}
+
+/// A line for each sample that did not complete.
+fn failed(journal: &Journal) -> Result<String, Failure> {
+    let mut lines = String::new();
+    journal.each_row(|row| {
+        if row.status != Status::Completed {
+            let reason = row.reason.replace(['\n', '\t'], " ");
+            lines += &format!("{}\t{}\t{reason}\n", row.index, row.status.word());
+        }
+        Ok(())
+    })?;
+    Ok(lines)
 }
 
 fn text(census: &Census, spent_s: f64, missing: &str) -> String {
