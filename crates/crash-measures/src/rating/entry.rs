@@ -1,5 +1,6 @@
 //! What fills a criterion: a value, or the reason why it is blank; and which measure it is made of.
 
+use super::far_side::{COUNTERMEASURE, EXCURSION, RED_LINE};
 use crate::injury::Measure;
 use crate::signal::STANDARD_GRAVITY_MPS2;
 
@@ -97,6 +98,10 @@ const SHEAR: &str = "resultant of x and y, at least as large as the x component"
 const INSPECTED: &str = "seen by the inspector of the car";
 const NO_CELL: &str = "no body here has this instrument";
 const BELT: &str = "a force of the belt, not of the body: give it with --values";
+const COLOUR: &str = "a colour by lines of the car: give it with --values";
+const LATERAL: &str = "the lateral moment, which no measure here is";
+const LOWER: &str = "a load of the lower neck, which no measure here is";
+const LUMBAR: &str = "a load of the lumbar spine, which no measure here is";
 const DURATION: &str = "rated by its duration, which no measure here does";
 
 /// Unit and measure of each criterion of the tables, by its name, and by its region where that decides.
@@ -171,6 +176,18 @@ const INSTRUMENTS: &[(&str, &str, Instrument)] = &[
     ("", "Lower spine, peak", by(GRAVITY, "lower_spine_peak")),
     ("", "Fabdomen", by(KILONEWTON, "abdomen_force")),
     ("", "Lower legs of the other tests", none(PERCENT, "the worst lower legs of the other frontal tests decide")),
+    ("", EXCURSION, none(NUMBER, COLOUR)),
+    ("", COUNTERMEASURE, none(NUMBER, INSPECTED)),
+    ("", RED_LINE, none(NUMBER, INSPECTED)),
+    ("", "Ftension, upper", by(KILONEWTON, "neck_tension")),
+    ("", "Mflexion, upper", none(NEWTON_METRE, LATERAL)),
+    ("", "Mextension, upper", by(NEWTON_METRE, "neck_extension")),
+    ("", "Ftension, lower", none(KILONEWTON, LOWER)),
+    ("", "Mflexion, lower", none(NEWTON_METRE, LOWER)),
+    ("", "Mextension, lower", none(NEWTON_METRE, LOWER)),
+    ("", "Fy lumbar", none(KILONEWTON, LUMBAR)),
+    ("", "Fz lumbar", none(KILONEWTON, LUMBAR)),
+    ("", "Mx lumbar", none(NEWTON_METRE, LUMBAR)),
     ("", "Inspection [%]", none(PERCENT, INSPECTED)),
 ];
 

@@ -10,6 +10,7 @@
 //! sees (modifiers, structure, excursion) hold without them unless they are given.
 
 mod entry;
+mod far_side;
 mod rate;
 mod round;
 mod scale;
@@ -18,6 +19,7 @@ mod tables;
 use crate::measure::{Blow, Dummy, Rule};
 
 pub use entry::{Entry, Instrument, Scaled, instrument};
+pub use far_side::COLOURS;
 pub use rate::{INSPECTION, Outcome, Rated, RatedCriterion, RatedOccupant, RatedRegion, RatedTest};
 pub use scale::{Criterion, Scale};
 pub use tables::RATINGS;
@@ -74,6 +76,8 @@ pub enum Total {
     Sum(f64),
     /// Sum of the worst of each region, times a factor.
     WorstRegions(f64),
+    /// Sum of the worst occupant of each part. Parts are runs of occupants of these lengths.
+    WorstOfParts(&'static [usize]),
     /// No common result.
     Apart,
 }

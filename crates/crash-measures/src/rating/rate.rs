@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use super::entry::{Entry, Scaled, instrument};
+use super::far_side::{self, COUNTERMEASURE, EXCURSION, RED_LINE};
 use super::round::half_up;
 use super::scale::{Criterion, Scale};
 use super::{Method, Occupant, Rating, Region, Test, Total};
@@ -42,6 +43,8 @@ pub struct Rated {
     pub rating: &'static Rating,
     /// Results of its tests, without occupants that were not filled.
     pub tests: Vec<RatedTest>,
+    /// Sum of several tests with points; none if a result is missing.
+    pub sum: Option<Outcome>,
 }
 
 /// Result of a test.
@@ -148,12 +151,33 @@ impl Rating {
                 }
                 index += 1;
             }
+            if matches!(test.total, Total::WorstOfParts(_)) {
+                far_side::share_caps(&mut occupants);
+            }
             let outcome = (occupants.len() == test.occupants.len()).then(|| total(self.method, test, &occupants));
             RatedTest { test, occupants, outcome: outcome.flatten() }
         });
-        let tests = tests.collect::<Vec<_>>().into_iter().filter(|test| !test.occupants.is_empty()).collect();
-        Rated { rating: self, tests }
+        let tests: Vec<RatedTest> = tests.collect();
+        let sum = if self.method == Method::Bands { sum_of(&tests) } else { None };
+        let tests = tests.into_iter().filter(|test| !test.occupants.is_empty()).collect();
+        Rated { rating: self, tests, sum }
     }
+}
+
+/// Sum of several tests.
+fn sum_of(tests: &[RatedTest]) -> Option<Outcome> {
+    let all = tests.iter().map(|test| test.outcome).collect::<Option<Vec<_>>>().filter(|all| all.len() > 1)?;
+    let of = |of: fn(&Outcome) -> f64| half_up(all.iter().map(of).sum(), 3);
+    Some(Outcome { now: of(|one| one.now), best: of(|one| one.best), of: all.iter().map(|one| one.of).sum() })
+}
+
+/// Occupants in runs of these lengths.
+fn parts<'a>(occupants: &'a [RatedOccupant], sizes: &'a [usize]) -> impl Iterator<Item = &'a [RatedOccupant]> {
+    sizes.iter().scan(occupants, |rest, size| {
+        let (part, others) = rest.split_at_checked(*size)?;
+        *rest = others;
+        Some(part)
+    })
 }
 
 /// The worst lower legs so far, of criteria of this program's tables that are no result of others.
@@ -178,6 +202,11 @@ fn total(method: Method, test: &Test, occupants: &[RatedOccupant]) -> Option<Out
         match test.total {
             Total::Apart => None,
             Total::Sum(factor) => Some(factor * occupants.iter().map(|rated| of(&rated.outcome)).sum::<f64>()),
+            Total::WorstOfParts(sizes) => {
+                let worst =
+                    |part: &[RatedOccupant]| part.iter().map(|own| of(&own.outcome)).fold(f64::INFINITY, f64::min);
+                Some(parts(occupants, sizes).map(worst).sum())
+            }
             Total::WorstRegions(factor) => {
                 let capped = occupants.iter().any(|rated| rated.capped);
                 let regions = occupants.first()?.regions.iter().enumerate();
@@ -195,6 +224,9 @@ fn total(method: Method, test: &Test, occupants: &[RatedOccupant]) -> Option<Out
     let most = match test.total {
         Total::Sum(factor) => of_each().sum::<Option<f64>>().map(|sum| factor * sum),
         Total::WorstRegions(factor) => of_each().next().flatten().map(|each| factor * each),
+        Total::WorstOfParts(sizes) => {
+            parts(occupants, sizes).filter_map(|part| part.first()).map(|own| own.outcome.of).sum::<Option<f64>>()
+        }
         Total::Apart => None,
     };
     Some(Outcome { now, best, of: most.map(|most| half_up(most, 3)) })
@@ -281,12 +313,39 @@ impl Person<'_> {
         let most = criterion.scale.most(unit.factor, method, dummy);
         let is_asked = !criterion.gated || self.is_asked(Blank::Nothing);
         let worth = entry.value.filter(|_| is_asked);
-        let worth = worth.and_then(|value| criterion.scale.worth(value, unit.factor, method, dummy));
+        let worth = worth.and_then(|value| self.worth(region, criterion, value, Blank::Nothing));
         let spared =
             matches!(criterion.scale, Scale::CapUnless { other, below } if self.is_below(region, other, below));
         let capped = entry.value.is_some_and(|value| criterion.caps(value, method)) && !spared;
         let deducted = entry.value.map_or(0.0, |value| criterion.deducted(value));
         RatedCriterion { criterion: *criterion, unit, entry, most, worth, deducted, capped }
+    }
+
+    /// What a value is worth; other blanks may matter.
+    fn worth(&self, region: &Region, criterion: &Criterion, value: f64, blank: Blank) -> Option<f64> {
+        let is_so = |name| self.is_so(region, name, blank);
+        match criterion.scale {
+            Scale::Excursion => Some(far_side::worth(value, is_so(COUNTERMEASURE), is_so(RED_LINE))),
+            Scale::Beside(main) => Some(self.worth_beside(region, value, main, blank)),
+            scale => {
+                let factor = instrument(region.name, criterion.name).unit.factor;
+                scale.worth(value, factor, self.rating.method, self.occupant.dummy)
+            }
+        }
+    }
+
+    /// Whether the answer to a question is yes.
+    fn is_so(&self, region: &Region, name: &str, blank: Blank) -> bool {
+        let question = region.criteria.iter().find(|criterion| criterion.name == name);
+        let answer = question.and_then(|question| self.entry(region, question).value);
+        answer.map_or(blank == Blank::Best, |answer| answer > 0.0)
+    }
+
+    /// What a colour is worth beside that of the main case.
+    fn worth_beside(&self, region: &Region, value: f64, main: &str, blank: Blank) -> f64 {
+        let index = self.rating.occupants().position(|own| own.case == main);
+        let main = index.and_then(|index| self.filled.get(&(index, region.name, EXCURSION))?.value);
+        main.map_or(if blank == Blank::Best { 100.0 } else { 0.0 }, |main| far_side::worth_beside(value, main))
     }
 
     fn is_below(&self, region: &Region, other: &str, below: f64) -> bool {
@@ -304,7 +363,8 @@ impl Person<'_> {
             scale => match (own.entry.value, blank) {
                 (None, Blank::Nothing) => Some(0.0),
                 (None, Blank::Best) => Some(scale.best()),
-                (Some(_), _) => own.worth,
+                (Some(_), Blank::Nothing) => own.worth,
+                (Some(value), Blank::Best) => self.worth(region, &own.criterion, value, blank),
             },
         };
         let worst = criteria.iter().filter_map(of).reduce(f64::min);
@@ -347,6 +407,13 @@ impl Rated {
     pub fn is_unmet(&self) -> bool {
         let all = self.tests.iter().flat_map(|test| &test.occupants);
         all.clone().any(|own| own.capped) || all.flat_map(|own| &own.regions).any(RatedRegion::is_lost)
+    }
+}
+
+impl RatedOccupant {
+    /// Takes all points.
+    pub(super) fn cap(&mut self) {
+        (self.capped, self.outcome.now, self.outcome.best) = (true, 0.0, 0.0);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Scales of criteria.
 
 use super::Method;
+use super::far_side::{COLOURS, caps, colour};
 use super::round::half_up;
 use crate::measure::{Dummy, Quantity, limits};
 
@@ -64,9 +65,17 @@ pub enum Scale {
     },
     /// Worst lower legs of other tests, %: 0 if any has none, else 100.
     Others,
+    /// Colour of the head's excursion to the far side, by its place in [`COLOURS`]. The last takes all points.
+    Excursion,
+    /// The same where it must be near the colour of this load case.
+    Beside(&'static str),
+    /// Yes (1) or no (0), on which other criteria of the region depend.
+    Answer,
 }
 
-use Scale::{Bands, Cap, CapUnless, Deduction, Gate, Grades, Most, Others, Percent, Risk, Sliding};
+use Scale::{
+    Answer, Bands, Beside, Cap, CapUnless, Deduction, Excursion, Gate, Grades, Most, Others, Percent, Risk, Sliding,
+};
 
 /// A criterion without a cap.
 pub(super) const fn criterion(name: &'static str, scale: Scale) -> Criterion {
@@ -128,15 +137,15 @@ impl Criterion {
     /// Whether a value takes all points of the occupant.
     pub(super) fn caps(&self, value: f64, method: Method) -> bool {
         match (self.cap, method) {
-            (None, _) => false,
+            (None, _) => matches!(self.scale, Excursion) && caps(value),
             (Some(cap), Method::Bands) => half_up(value, 2) >= half_up(cap, 2),
             (Some(cap), _) => value > cap,
         }
     }
 
-    /// Whether it belongs to the worst criterion of its region, as opposed to modifiers, caps and the gate.
+    /// Whether it belongs to the worst criterion of its region, as opposed to modifiers, caps, answers and the gate.
     pub(super) fn is_scored(&self) -> bool {
-        !matches!(self.scale, Deduction(_) | Percent | Cap | CapUnless { .. } | Gate { .. })
+        !matches!(self.scale, Deduction(_) | Percent | Cap | CapUnless { .. } | Gate { .. } | Answer)
     }
 
     /// Percent that a value takes from its region.
@@ -154,7 +163,7 @@ impl Criterion {
 impl Scale {
     /// What a value, whose unit is a `factor` of the SI unit, is worth: percent of the points, 100 or 0 for met or not
     /// met, 3 to 0 for good to poor, the percentage of those without this injury. None if nothing is known for the
-    /// dummy.
+    /// dummy, or if other criteria decide.
     pub(super) fn worth(&self, value: f64, factor: f64, method: Method, dummy: Option<Dummy>) -> Option<f64> {
         match *self {
             Bands { high, low } => Some(band(value, high, low)),
@@ -166,6 +175,7 @@ impl Scale {
             Risk(curve) => curve(value * factor).map(|risk| 100.0 * (1.0 - risk)),
             Others => Some(if value > 0.0 { 100.0 } else { 0.0 }),
             Deduction(_) | Percent | Cap | CapUnless { .. } | Gate { .. } => None,
+            Excursion | Beside(_) | Answer => None,
         }
     }
 
@@ -176,6 +186,16 @@ impl Scale {
             (Scale::Rule(quantity), Method::Limits(rule)) => {
                 limits(rule, dummy?).find(|limit| limit.quantity == quantity).map(|limit| limit.most / factor)
             }
+            _ => None,
+        }
+    }
+
+    /// The word for a value: a colour, or yes and no.
+    #[must_use]
+    pub fn word(&self, value: f64) -> Option<&'static str> {
+        match self {
+            Excursion | Beside(_) => COLOURS.get(colour(value)).copied(),
+            Answer => Some(if value > 0.0 { "Yes" } else { "No" }),
             _ => None,
         }
     }

@@ -85,6 +85,95 @@ fn an_arm_is_no_pole() {
     assert!(rated("euro-ncap-2026-side-pole", "Pole-32, Driver, WorldSID-50", &values, Some(0.0)).capped);
 }
 
+/// The far side from values by load case and criterion; all others are 0: no load, `Green`, `No`.
+fn far_side(values: &[(&str, &str, Option<f64>)]) -> Rated {
+    let fill = |occupant: &Occupant, _: &Region, criterion: &Criterion| {
+        let given = values.iter().find(|(case, name, _)| *case == occupant.case && *name == criterion.name);
+        given.map_or(Some(0.0), |given| given.2).map_or_else(|| Entry::blank("not given"), Entry::of)
+    };
+    Rating::named("euro-ncap-2026-far-side").unwrap().rate(|_| true, fill)
+}
+
+fn far_side_points(values: &[(&str, &str, f64)]) -> f64 {
+    let values: Vec<_> = values.iter().map(|(case, name, value)| (*case, *name, Some(*value))).collect();
+    let outcome = far_side(&values).tests[0].outcome.unwrap();
+    assert_eq!((outcome.of, outcome.is_open()), (Some(10.0), false));
+    outcome.now
+}
+
+const COLOUR: &str = "Farside excursion";
+const BAG: &str = "Countermeasure?";
+const FAR_LINE: &str = "Red line >125 mm outboard of the orange line ?";
+
+/// Five parts of 2 points. Orange is worth 25 %, with a countermeasure 75 %; red 25 %, with a far red line 50 %.
+#[test]
+fn the_far_side_has_points_by_colours() {
+    let (main, pole) = (("Main-AEMDB", COLOUR), ("Main-Pole", COLOUR));
+    let of = |colour: f64, rest: &[(&str, &str, f64)]| far_side_points(&[&[(main.0, main.1, colour)], rest].concat());
+    assert_eq!([0.0, 1.0].map(|colour| of(colour, &[])), [10.0, 9.0]);
+    // the green robustness cases of the barrier are two colours off
+    assert_eq!(of(2.0, &[]), 6.5);
+    assert_eq!(of(2.0, &[("Main-AEMDB", BAG, 1.0)]), 7.5);
+    assert_eq!(of(3.0, &[("Main-AEMDB", BAG, 1.0)]), 6.5);
+    let red = [("Main-AEMDB", BAG, 1.0), ("Main-AEMDB", FAR_LINE, 1.0)];
+    assert_eq!(of(3.0, &red), 7.0);
+    // one of four alone counts; so does one of the two seats
+    assert_eq!(far_side_points(&[("Robustness-AEMDB90high", COLOUR, 2.0)]), 8.0);
+    assert_eq!(far_side_points(&[(pole.0, pole.1, 1.0), ("Robustness-Pole90", COLOUR, 2.0)]), 9.0);
+    assert_eq!(far_side_points(&[("Pole-32", "Ares-3ms", 79.994)]), 10.0);
+    assert_eq!(far_side_points(&[("Pole-32", "Ares-3ms", 79.995)]), 8.0);
+    // (50 - 12.34) % of 2 points are 0.7532; 99.99 % of 2 points 1.9998; the sum is rounded, not its parts
+    let seen = [red[0], red[1], ("Main-AEMDB", "Inspection [%]", 12.34), ("Main-Pole", "Inspection [%]", 0.01)];
+    assert_eq!(of(3.0, &seen), 6.753);
+}
+
+/// A load takes the points of main and robustness cases, a colour those of the main cases; never those of Pole-32.
+/// Pelvis and lumbar spine take nothing.
+#[test]
+fn caps_of_the_far_side_reach_other_cases() {
+    assert_eq!([79.99, 80.0].map(|peak| far_side_points(&[("Main-Pole", "Ares", peak)])), [10.0, 2.0]);
+    assert_eq!([3.73, 3.74].map(|load| far_side_points(&[("Main-AEMDB", "Ftension, lower", load)])), [10.0, 2.0]);
+    let capping = [("Main-Pole", COLOUR, 4.0)];
+    assert_eq!(far_side_points(&capping), 4.0);
+    let beside = [("Robustness-Pole75high", COLOUR, 4.0), ("Robustness-Pole90", COLOUR, 4.0)];
+    assert_eq!(far_side_points(&[&capping[..], &beside].concat()), 6.0);
+    assert_eq!(far_side_points(&[&capping[..], &[("Main-AEMDB", "HIC15", 700.0)]].concat()), 2.0);
+    let lumbar = far_side(&[("Main-Pole", "Fy lumbar", Some(9.0))]);
+    let own = &lumbar.tests[0].occupants[3];
+    assert_eq!((own.regions[4].criteria[1].deducted, own.outcome.now), (25.0, 2.0));
+}
+
+/// A main case without a colour leaves its robustness cases open too; unanswered questions count as no.
+#[test]
+fn blanks_of_the_far_side_are_open() {
+    let of = |values: &[_]| {
+        let outcome = far_side(values).tests[0].outcome.unwrap();
+        (outcome.now, outcome.best)
+    };
+    assert_eq!(of(&[("Main-Pole", COLOUR, None)]), (6.0, 10.0));
+    assert_eq!(of(&[("Robustness-Pole90", COLOUR, None)]), (8.0, 10.0));
+    assert_eq!(of(&[("Main-Pole", COLOUR, Some(1.0)), ("Main-Pole", BAG, None)]), (9.0, 10.0));
+    let red = [("Main-Pole", COLOUR, Some(3.0)), ("Main-Pole", BAG, Some(1.0)), ("Main-Pole", FAR_LINE, None)];
+    assert_eq!(of(&red), (6.5, 7.0));
+    assert_eq!(of(&[("Pole-32", "HIC15", None)]), (8.0, 10.0));
+    // alone, a robustness case has nothing to be near to
+    let rating = Rating::named("euro-ncap-2026-far-side").unwrap();
+    let alone = rating.rate(|own| own.case == "Robustness-Pole90", |_, _, _| Entry::of(0.0));
+    let outcome = alone.tests[0].occupants[0].outcome;
+    assert_eq!((outcome.now, outcome.best, alone.tests[0].outcome), (0.0, 2.0, None));
+}
+
+/// 15, 10 and 10 points; no sum where a test or an occupant is missing.
+#[test]
+fn tests_of_a_stage_have_a_sum() {
+    let rating = Rating::named("euro-ncap-2026-side").unwrap();
+    let sum = |case: &str| rating.rate(|own| own.case != case, |_, _, _| Entry::of(0.0)).sum;
+    let whole = sum("").unwrap();
+    assert_eq!((whole.now, whole.best, whole.of), (35.0, 35.0, Some(35.0)));
+    assert!(sum("AEMDB-60").is_none() && sum("Robustness-Pole90").is_none());
+    assert!(far_side(&[]).sum.is_none());
+}
+
 /// Virtual tests have the legs of the others: none if any has none.
 #[test]
 fn virtual_legs_are_those_of_the_other_tests() {
@@ -247,6 +336,7 @@ fn a_filled_blank_stays_within_its_interval() {
                 Scale::Bands { low, .. } | Scale::Sliding { low, .. } | Scale::Most(low) => low.max(1.0),
                 Scale::Grades(bounds) => bounds[0],
                 Scale::Gate { below, .. } => below,
+                Scale::Excursion | Scale::Beside(_) => 4.0,
                 _ => own.cap.unwrap_or(1.0),
             };
             *values.entry(place + own.name).or_insert_with(|| (1.3 * high * chance(), chance() < 0.3))
@@ -322,6 +412,11 @@ fn tables_are_whole() {
                     own.name
                 );
             }
+        }
+    }
+    for test in RATINGS.iter().flat_map(|rating| rating.tests) {
+        if let Total::WorstOfParts(sizes) = test.total {
+            assert_eq!(sizes.iter().sum::<usize>(), test.occupants.len());
         }
     }
     let most = |name: &str| -> Vec<f64> {

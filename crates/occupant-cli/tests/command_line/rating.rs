@@ -67,6 +67,60 @@ fn values_of_a_table_are_rated_alone() {
     assert_eq!(code(&answer(here, &strict)), 1);
 }
 
+/// Answers on the car and colours of the far side, and a parameter of another rating.
+const FAR_SIDE: &str = "Input parameter,Value\nCountermeasure?,Yes\nTorso angle,25\n\
+    Red line >125 mm outboard of the orange line,no\n\
+    Loadcase,Seat position,Dummy,Body region,Criteria,Value\n\
+    Main-Pole,Driver,WorldSID-50,Head,Ares,70.5\n\
+    ,,,,Farside excursion,orange\n\
+    Robustness-Pole75high,Driver,WorldSID-50,Head,Farside excursion,Red\n\
+    Robustness-Pole90,Driver,WorldSID-50,Head,Farside excursion,Green\n";
+
+/// Orange with a countermeasure is worth 75 % of 2 points; red is next to it, green is not.
+#[test]
+fn colours_of_the_far_side_are_words() {
+    let folder = folder_with_case();
+    let here = folder.path();
+    let far_side = ["--rating", "euro-ncap-2026-far-side", "--values"];
+    let points = |file: &str| -> Vec<f64> {
+        let told = rate(here, &[&far_side[..], &[file]].concat());
+        let seats = told["results"][0]["tests"][0]["occupants"].as_array().unwrap().clone();
+        seats.iter().map(|seat| seat["result"]["now"].as_f64().unwrap()).collect()
+    };
+    std::fs::write(here.join("far.csv"), FAR_SIDE).unwrap();
+    assert_eq!(points("far.csv"), [1.5, 2.0, 0.0]);
+    let told = rate(here, &[&far_side[..], &["far.csv"]].concat());
+    let colour = &first(&told)["regions"][0]["criteria"][3];
+    assert_eq!((&colour["value"], &colour["word"], &colour["worth"]), (&2.0.into(), &"Orange".into(), &75.0.into()));
+    for name in ["filled.csv", "filled.xlsx"] {
+        let words = [&["measures"], &far_side[..], &["far.csv", "-o", name]].concat();
+        let output = answer(here, &words);
+        let text = out(&output);
+        assert!(
+            code(&output) == 0 && text.contains("Orange") && text.contains("near the colour of Main-Pole"),
+            "{text}"
+        );
+        assert_eq!(points(name), [1.5, 2.0, 0.0], "{name}");
+    }
+    let filled = std::fs::read_to_string(here.join("filled.csv")).unwrap();
+    assert!(["Ares,70.5,", "Farside excursion,Orange,", "Countermeasure?,Yes,"].iter().all(|row| filled.contains(row)));
+    for (from, to, found) in [
+        ("orange\n", "oragne\n", "did you mean `Orange`?"),
+        ("orange\n", "2\n", "the colour `2`"),
+        (",Yes\n", ",perhaps\n", "yes, no, or nothing"),
+        (",Yes\n", ",7\n", "yes, no, or nothing"),
+        ("Torso angle,25", "countermeasure,No", "`Countermeasure?` a second time"),
+    ] {
+        std::fs::write(here.join("wrong.csv"), FAR_SIDE.replacen(from, to, 1)).unwrap();
+        let output = answer(here, &[&["measures"], &far_side[..], &["wrong.csv"]].concat());
+        assert!(code(&output) == 2 && err(&output).contains(found), "{found}: {}", err(&output));
+    }
+    // answers alone are no test
+    std::fs::write(here.join("alone.csv"), FAR_SIDE.split_inclusive('\n').take(2).collect::<String>()).unwrap();
+    let alone = answer(here, &[&["measures"], &far_side[..], &["alone.csv"]].concat());
+    assert!(code(&alone) == 2 && err(&alone).contains("has no value"), "{}", err(&alone));
+}
+
 #[test]
 fn wrong_values_are_pointed_at() {
     let folder = folder_with_case();
@@ -135,6 +189,13 @@ fn a_run_is_rated_as_far_as_it_measures() {
         side["results"][0]["notes"].to_string().contains("the run is a frontal impact, the rating is of a side impact")
     );
     assert_eq!(first(&side)["result"]["now"], 0.0);
+    // a colour is no measure; an answer for all cases is given once
+    std::fs::write(here.join("car.csv"), "Body region,Criteria,Value\nHead,Countermeasure?,yes\n").unwrap();
+    let far = ["run.mcap", "--rating", "euro-ncap-2026-far-side", "--place", "main-pole", "--values", "car.csv"];
+    let far = rate(here, &far);
+    let head = &first(&far)["regions"][0]["criteria"];
+    assert!(head[0]["value"].is_number() && head[3]["remark"].as_str().unwrap().contains("lines of the car"), "{head}");
+    assert_eq!((&head[4]["word"], &far["results"][0]["sum"]), (&"Yes".into(), &Value::Null));
     // two runs, and values beside measures
     let belt = "Body region,Criteria,Value\nChest & Abdomen,Shoulder belt load,7\n";
     std::fs::write(here.join("belt.csv"), belt).unwrap();

@@ -24,6 +24,9 @@ pub struct Result {
     /// What the body is not.
     notes: Vec<String>,
     tests: Vec<Test>,
+    /// Sum of several tests.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sum: Option<Told>,
 }
 
 #[derive(Serialize)]
@@ -70,6 +73,9 @@ struct Criterion {
     criterion: &'static str,
     unit: &'static str,
     value: Option<f64>,
+    /// The word for the value, such as a colour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    word: Option<&'static str>,
     scale: String,
     cap: Option<f64>,
     worth: Option<f64>,
@@ -100,7 +106,8 @@ impl Result {
     pub fn new(file: &str, occupant: &str, notes: Vec<String>, rated: &Rated) -> Self {
         let method = rated.rating.method;
         let tests = rated.tests.iter().map(|test| Test::of(test, method)).collect();
-        Result { file: file.to_owned(), occupant: occupant.to_owned(), notes, tests }
+        let sum = rated.sum.map(|sum| Told::of(&sum, method));
+        Result { file: file.to_owned(), occupant: occupant.to_owned(), notes, tests, sum }
     }
 }
 
@@ -150,6 +157,7 @@ impl Criterion {
             criterion: rated.criterion.name,
             unit: rated.unit.symbol,
             value: rated.entry.value,
+            word: rated.entry.value.and_then(|value| rated.criterion.scale.word(value)),
             scale: super::text::scale(rated),
             cap: rated.criterion.cap,
             worth: rated.worth,

@@ -6,7 +6,7 @@ use placed_text::{number, shown};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{self, NONE, Table};
 
-/// Tables of all occupants, results of the tests, blanks with their reasons.
+/// Tables of all occupants, results of the tests and their sum, blanks with their reasons.
 pub fn text(rated: &Rated) -> String {
     let mut parts = Vec::new();
     for test in &rated.tests {
@@ -16,6 +16,8 @@ pub fn text(rated: &Rated) -> String {
         let result = test.outcome.map(|outcome| outcome.words(rated.rating.method));
         parts.extend(result.map(|words| format!("{}: {words}\n", test.test.name)));
     }
+    let sum = rated.sum.map(|sum| sum.words(rated.rating.method));
+    parts.extend(sum.map(|words| format!("all tests: {words}\n")));
     parts.join("\n")
 }
 
@@ -60,6 +62,7 @@ fn points(region: &RatedRegion, method: Method) -> String {
     let outcome = region.outcome;
     let mark = if region.doubtful { "!" } else { "" };
     match (outcome.is_open(), method) {
+        (false, Method::Bands) if region.region.points == 0.0 => String::new(),
         (false, _) => of(outcome.now) + mark,
         (true, Method::Limits(_)) => "open".to_owned() + mark,
         (true, _) => format!("{}–{}{mark}", of(outcome.now), of(outcome.best)),
@@ -68,7 +71,8 @@ fn points(region: &RatedRegion, method: Method) -> String {
 
 fn cells(own: &RatedCriterion, method: Method) -> [String; 6] {
     let mark = if own.entry.doubtful { "!" } else { "" };
-    let value = own.entry.value.map_or(NONE.to_owned(), |value| rounded(value) + mark);
+    let shown = |value| own.criterion.scale.word(value).map_or_else(|| rounded(value), str::to_owned);
+    let value = own.entry.value.map_or(NONE.to_owned(), |value| shown(value) + mark);
     let cap = own.criterion.cap.filter(|_| !matches!(own.criterion.scale, Scale::Cap | Scale::CapUnless { .. }));
     [
         own.criterion.name.to_owned(),
@@ -108,6 +112,9 @@ pub(super) fn scale(own: &RatedCriterion) -> String {
         Scale::Cap | Scale::CapUnless { .. } => format!("cap {}", own.criterion.cap.map(number).unwrap_or_default()),
         Scale::Gate { below, .. } => format!("contact ≥ {}", number(below)),
         Scale::Others => "none or all".to_owned(),
+        Scale::Excursion => "colour".to_owned(),
+        Scale::Beside(main) => format!("near the colour of {main}"),
+        Scale::Answer => "yes or no".to_owned(),
     }
 }
 

@@ -1,10 +1,10 @@
 //! Values of a rating from a table, in the layout of Euro NCAP's template: load case, seat, dummy, region, criterion,
 //! value. An empty cell of the first four means the cell above; without a load case, a seat and a dummy it is of all
-//! occupants.
+//! occupants. A table of input parameters, as its workbook has one, answers questions on the car.
 
 use std::path::Path;
 
-use crash_measures::rating::{Criterion, Entry, INSPECTION, Occupant, Rating, Region};
+use crash_measures::rating::{COLOURS, Criterion, Entry, INSPECTION, Occupant, Rating, Region, Scale};
 use placed_text::{
     CELL, Cell, Diagnostic, Diagnostics, Problem, Separator, Sources, Span, is_missing, lines, nearest, shortened,
 };
@@ -14,6 +14,8 @@ use occupant_files::measured;
 
 /// Columns, by their names in the template.
 pub(super) const COLUMNS: [&str; 6] = ["Loadcase", "Seat position", "Dummy", "Body region", "Criteria", "Value"];
+/// Columns of input parameters.
+const PARAMETERS: [&str; 2] = ["Input parameter", "Value"];
 /// Number of columns that repeat downwards.
 const PLACES: usize = 4;
 /// Largest number of problems shown.
@@ -23,6 +25,8 @@ const SHOWN: usize = 8;
 #[derive(Clone, Debug, Default)]
 pub struct Values {
     rows: Vec<Row>,
+    /// Answers on the car, by their criteria.
+    answers: Vec<(&'static str, Option<f64>)>,
 }
 
 /// A value with its place.
@@ -61,8 +65,10 @@ impl Values {
     /// The value of a criterion; none if it has no row.
     pub fn entry(&self, occupant: &Occupant, region: &Region, criterion: &Criterion) -> Option<Entry> {
         let is_own = |row: &&Row| row.is_of(occupant) && row.region == region.name && row.criterion == criterion.name;
-        let row = self.rows.iter().find(is_own)?;
-        Some(row.value.map_or_else(|| Entry::blank("no value given"), Entry::of))
+        let row = self.rows.iter().find(is_own).map(|row| row.value);
+        let answer = || self.answers.iter().find(|(name, _)| *name == criterion.name).map(|(_, value)| *value);
+        let value = row.or_else(answer)?;
+        Some(value.map_or_else(|| Entry::blank("no value given"), Entry::of))
     }
 }
 
@@ -83,14 +89,43 @@ impl<'a> Reader<'a> {
     /// The tables of a text: several, with the names of their sheets between, if it is a workbook.
     fn tables(&mut self, start: Span, all: &[Span]) {
         let is_head = |line: &Span| self.columns(*line).iter().skip(PLACES - 1).all(Option::is_some);
-        let heads: Vec<usize> = (0..all.len()).filter(|i| is_head(&all[*i])).collect();
+        let is_of_car = |line: &Span| self.found_columns(*line, PARAMETERS).iter().all(Option::is_some);
+        let heads: Vec<usize> = (0..all.len()).filter(|i| is_head(&all[*i]) || is_of_car(&all[*i])).collect();
         if heads.is_empty() {
             return self.no_table(start, all.first());
         }
+        let is_of_several = heads.iter().filter(|i| is_head(&all[**i])).count() > 1;
         let ends = heads.iter().skip(1).copied().chain([all.len()]);
         for (head, end) in heads.iter().zip(ends) {
-            self.table(all[*head], &all[head + 1..end], heads.len() > 1);
+            let rest = &all[head + 1..end];
+            match self.found_columns(all[*head], PARAMETERS) {
+                [Some(name), Some(value)] => self.parameters(all[*head], [name, value], rest),
+                _ => self.table(all[*head], rest, is_of_several),
+            }
         }
+    }
+
+    /// Answers on the car. Parameters of other ratings are left out.
+    fn parameters(&mut self, head: Span, columns: [usize; 2], rest: &[Span]) {
+        let separator = Separator::of(self.sources.slice(head));
+        for line in rest {
+            let cells = separator.cells(self.sources, *line);
+            let [Some(name), value] = columns.map(|column| cells.get(column)) else { continue };
+            let Some(own) = self.question(name.text) else { continue };
+            if self.values.answers.iter().any(|(known, _)| *known == own.name) {
+                self.wrong(name.span, &format!("`{}` a second time", own.name), "each parameter once");
+            }
+            if let Some(value) = self.value(separator, value, own) {
+                self.values.answers.push((own.name, value));
+            }
+        }
+    }
+
+    /// The question of the rating that a parameter answers, with or without its question mark.
+    fn question(&self, name: &str) -> Option<&'static Criterion> {
+        let bare = |name: &str| name.trim_end_matches(['?', ' ']).to_lowercase();
+        let criteria = self.rating.occupants().flat_map(|own| own.regions).flat_map(|region| region.criteria);
+        criteria.filter(|own| matches!(own.scale, Scale::Answer)).find(|own| bare(own.name) == bare(name))
     }
 
     fn no_table(&mut self, start: Span, first: Option<&Span>) {
@@ -102,8 +137,12 @@ impl<'a> Reader<'a> {
 
     /// Where the columns are in a line of headings.
     fn columns(&self, head: Span) -> [Option<usize>; COLUMNS.len()] {
+        self.found_columns(head, COLUMNS)
+    }
+
+    fn found_columns<const N: usize>(&self, head: Span, names: [&str; N]) -> [Option<usize>; N] {
         let heads = Separator::of(self.sources.slice(head)).cells(self.sources, head);
-        COLUMNS.map(|name| heads.iter().position(|cell| cell.text.eq_ignore_ascii_case(name)))
+        names.map(|name| heads.iter().position(|cell| cell.text.eq_ignore_ascii_case(name)))
     }
 
     /// One table. One of several is left out if it begins with an occupant whom the rating does not have.
@@ -136,7 +175,10 @@ impl<'a> Reader<'a> {
         let Some(occupants) = self.occupants(place, criterion.span) else { return };
         let regions = || occupants.iter().flat_map(|own| own.regions.iter().map(|region| (*own, region)));
         let wanted = place[PLACES - 1].map_or("", |cell| cell.text);
-        let Some((occupant, region)) = regions().find(|(_, region)| same(region.name, wanted)) else {
+        let is_wanted = |own: &(_, &Region)| same(own.1.name, wanted);
+        let has_it = |own: &(_, &Region)| own.1.criteria.iter().any(|known| same(known.name, criterion.text));
+        let found = regions().find(|own| is_wanted(own) && has_it(own)).or_else(|| regions().find(is_wanted));
+        let Some((occupant, region)) = found else {
             let mut known: Vec<&str> = regions().map(|(_, region)| region.name).collect();
             known.sort_unstable();
             known.dedup();
@@ -150,23 +192,40 @@ impl<'a> Reader<'a> {
         if self.values.entry(occupant, region, own).is_some() {
             return self.wrong(criterion.span, &format!("`{}` a second time", own.name), "each criterion once");
         }
-        let Some(value) = self.value(separator, value) else { return };
+        let Some(value) = self.value(separator, value, own) else { return };
         let place = (occupants.len() == 1).then(|| occupant.place());
         self.values.rows.push(Row { place, region: region.name, criterion: own.name, value });
     }
 
     /// A number, none for a word that means no value; nothing after a complaint.
-    fn value(&mut self, separator: Separator, cell: Option<&Cell<'_>>) -> Option<Option<f64>> {
+    fn value(&mut self, separator: Separator, cell: Option<&Cell<'_>>, own: &Criterion) -> Option<Option<f64>> {
         let Some(cell) = cell.filter(|cell| !is_missing(cell.text)) else { return Some(None) };
+        let expected = match own.scale {
+            Scale::Excursion | Scale::Beside(_) => return self.colour(cell).map(Some),
+            Scale::Answer => "yes, no, or nothing",
+            _ => "a finite number, or nothing",
+        };
         match (cell.text.to_lowercase().as_str(), separator.number(cell)) {
             ("true" | "yes", _) => Some(Some(1.0)),
             ("false" | "no", _) => Some(Some(0.0)),
-            (_, Ok(number)) => Some(Some(number)),
-            (_, Err(found)) => {
-                self.wrong(cell.span, &found, "a finite number, or nothing");
+            (_, Ok(number)) if !matches!(own.scale, Scale::Answer) || [0.0, 1.0].contains(&number) => {
+                Some(Some(number))
+            }
+            (_, found) => {
+                let found = found.err().unwrap_or_else(|| format!("`{}`", shortened(cell.text, CELL)));
+                self.wrong(cell.span, &found, expected);
                 None
             }
         }
+    }
+
+    /// The place of a colour; nothing after a complaint.
+    fn colour(&mut self, cell: &Cell<'_>) -> Option<f64> {
+        let place = COLOURS.iter().position(|colour| same(colour, cell.text));
+        if place.is_none() {
+            self.unknown(cell.span, "colour", cell.text, &COLOURS);
+        }
+        place.map(|place| place as f64)
     }
 
     /// The occupants that a line names.

@@ -2,8 +2,13 @@
 //! frontal and side impacts. Loads in kN, mm, g, N·m.
 //!
 //! A region has the percentage of its worst criterion, less its modifiers. Without a hard contact of the head (largest
-//! acceleration below 80 g) HIC15 and the 3 ms level are not asked. Left out: far side, whiplash, pedestrians.
+//! acceleration below 80 g) HIC15 and the 3 ms level are not asked. Left out: whiplash, pedestrians.
+//!
+//! The far side has five parts of 2 points: both seats of the pole test, the two main cases, and robustness cases of
+//! barrier and pole. The main cases have points by the colour of the head's excursion, and loads that cap. The
+//! calculator reads modifiers of pelvis and lumbar spine but takes nothing off for them.
 
+use super::super::far_side::{COUNTERMEASURE, EXCURSION, RED_LINE};
 use super::super::rate::LOWER_LEGS;
 use super::super::scale::{Criterion, Scale, bands, cap, criterion, deduction, gate};
 use super::super::{Method, Occupant, Rating, Region, Test, Total, region};
@@ -11,6 +16,8 @@ use crate::measure::{Blow, Dummy};
 
 const SOURCE: &str = "Euro NCAP, calculator euroncap-rating-2026, version 5.4.9, 2026 (Apache-2.0), which implements the Euro NCAP protocols of 2026 for crash protection";
 const REMARK: &str = "Without what an inspector takes off, unless it is given as `Inspection [%]` of a region.";
+
+const FAR_SIDE_REMARK: &str = "Without what an inspector takes off, unless it is given as `Inspection [%]` of a region. On the far side, both seats of Pole-32, the robustness cases of the barrier and those of the pole count once, by their worst; pelvis and lumbar spine take nothing off, as in the calculator. Whether a body sat on the far side is not checked.";
 
 /// HIC15 below which a peak of the head in a pole test is taken as a blow of the arm.
 const ARM_HIC15: f64 = 500.0;
@@ -21,6 +28,7 @@ const HIII_05: Of = ("HIII-05", Some(Dummy::HybridIii5F));
 const HIII_50: Of = ("HIII-50", Some(Dummy::HybridIii50M));
 const HIII_95: Of = ("HIII-95", Some(Dummy::HybridIii95M));
 const WORLDSID_50: Of = ("WorldSID-50", Some(Dummy::WorldSid50M));
+const WORLDSID_50_FAR_SIDE: Of = ("WorldSID-50-Farside", Some(Dummy::WorldSid50M));
 const Q6: Of = ("Q6", None);
 const Q10: Of = ("Q10", None);
 const Q6_SIDE: Of = ("Q6-Side", None);
@@ -43,9 +51,10 @@ const FULL_WIDTH_TEST: Test = test("FW", FULL_WIDTH);
 const SLED_TEST: Test = test("Sled & VT", SLED);
 const BARRIER_TEST: Test = test("MDB", SIDE_BARRIER);
 const POLE_TEST: Test = test("Pole", SIDE_POLE);
+const FAR_SIDE_TEST: Test = Test { name: "Farside", occupants: FAR_SIDE, total: Total::WorstOfParts(&[2, 1, 1, 4, 2]) };
 
 /// The ratings of this edition.
-pub(super) const RATINGS: [Rating; 7] = [
+pub(super) const RATINGS: [Rating; 8] = [
     rating(
         "euro-ncap-2026-frontal",
         "Euro NCAP 2026, frontal impact: offset, full width, sled and virtual tests",
@@ -55,14 +64,21 @@ pub(super) const RATINGS: [Rating; 7] = [
     rating("euro-ncap-2026-offset", "Euro NCAP 2026, frontal offset (MPDB)", Blow::Front, &[OFFSET_TEST]),
     rating("euro-ncap-2026-full-width", "Euro NCAP 2026, frontal full width", Blow::Front, &[FULL_WIDTH_TEST]),
     rating("euro-ncap-2026-sled", "Euro NCAP 2026, frontal sled and virtual tests", Blow::Front, &[SLED_TEST]),
-    rating(
-        "euro-ncap-2026-side",
-        "Euro NCAP 2026, side impact: barrier and pole",
-        Blow::Side,
-        &[BARRIER_TEST, POLE_TEST],
-    ),
+    Rating {
+        remark: FAR_SIDE_REMARK,
+        ..rating(
+            "euro-ncap-2026-side",
+            "Euro NCAP 2026, side impact: barrier, pole and far side",
+            Blow::Side,
+            &[BARRIER_TEST, POLE_TEST, FAR_SIDE_TEST],
+        )
+    },
     rating("euro-ncap-2026-side-barrier", "Euro NCAP 2026, side barrier", Blow::Side, &[BARRIER_TEST]),
     rating("euro-ncap-2026-side-pole", "Euro NCAP 2026, side pole", Blow::Side, &[POLE_TEST]),
+    Rating {
+        remark: FAR_SIDE_REMARK,
+        ..rating("euro-ncap-2026-far-side", "Euro NCAP 2026, far side", Blow::Side, &[FAR_SIDE_TEST])
+    },
 ];
 
 /// Legs that virtual tests take from the others.
@@ -481,3 +497,54 @@ const SIDE_POLE: &[Occupant] = &[occupant(
         region("Pelvis", 2.5, WORLDSID_50_PELVIS),
     ],
 )];
+const FAR_SIDE_POLE_HEAD: &[Criterion] = &[bands("HIC15", 700.0, 700.0), bands("Ares-3ms", 80.0, 80.0)];
+const FAR_SIDE_HEAD: &[Criterion] = &[
+    cap("Ares", 80.0),
+    cap("HIC15", 700.0),
+    cap("Ares-3ms", 80.0),
+    criterion(EXCURSION, Scale::Excursion),
+    criterion(COUNTERMEASURE, Scale::Answer),
+    criterion(RED_LINE, Scale::Answer),
+];
+const FAR_SIDE_NECK: &[Criterion] = &[
+    cap("Ftension, upper", 3.74),
+    cap("Mflexion, upper", 248.0),
+    cap("Mextension, upper", 50.0),
+    cap("Ftension, lower", 3.74),
+    cap("Mflexion, lower", 248.0),
+    cap("Mextension, lower", 100.0),
+];
+const FAR_SIDE_CHEST: &[Criterion] = &[
+    cap("Dchest compression, top", 50.0),
+    cap("Dchest compression, middle", 50.0),
+    cap("Dchest compression, bottom", 50.0),
+];
+const FAR_SIDE_ABDOMEN: &[Criterion] =
+    &[cap("Dabdomen compression, top", 65.0), cap("Dabdomen compression, bottom", 65.0)];
+const FAR_SIDE_PELVIS: &[Criterion] = &[
+    deduction("Fpubic symphysis", &[(2.8, 25.0)]),
+    deduction("Fy lumbar", &[(2.0, 25.0)]),
+    deduction("Fz lumbar", &[(3.5, 25.0)]),
+    deduction("Mx lumbar", &[(120.0, 25.0)]),
+];
+const FAR_SIDE_MAIN: &[Region] = &[
+    region("Head", 2.0, FAR_SIDE_HEAD),
+    region("Neck", 0.0, FAR_SIDE_NECK),
+    region("Chest", 0.0, FAR_SIDE_CHEST),
+    region("Abdomen", 0.0, FAR_SIDE_ABDOMEN),
+    region("Pelvis", 0.0, FAR_SIDE_PELVIS),
+];
+const BESIDE_BARRIER: &[Region] = &[region("Head", 2.0, &[criterion(EXCURSION, Scale::Beside("Main-AEMDB"))])];
+const BESIDE_POLE: &[Region] = &[region("Head", 2.0, &[criterion(EXCURSION, Scale::Beside("Main-Pole"))])];
+const FAR_SIDE: &[Occupant] = &[
+    occupant("Pole-32", "Driver", WORLDSID_50_FAR_SIDE, &[region("Head", 2.0, FAR_SIDE_POLE_HEAD)]),
+    occupant("Pole-32", "Front Passenger", WORLDSID_50_FAR_SIDE, &[region("Head", 2.0, FAR_SIDE_POLE_HEAD)]),
+    occupant("Main-AEMDB", "Driver", WORLDSID_50, FAR_SIDE_MAIN),
+    occupant("Main-Pole", "Driver", WORLDSID_50, FAR_SIDE_MAIN),
+    occupant("Robustness-AEMDB60", "Driver", WORLDSID_50, BESIDE_BARRIER),
+    occupant("Robustness-AEMDB75high", "Driver", WORLDSID_50, BESIDE_BARRIER),
+    occupant("Robustness-AEMDB90", "Driver", WORLDSID_50, BESIDE_BARRIER),
+    occupant("Robustness-AEMDB90high", "Driver", WORLDSID_50, BESIDE_BARRIER),
+    occupant("Robustness-Pole75high", "Driver", WORLDSID_50, BESIDE_POLE),
+    occupant("Robustness-Pole90", "Driver", WORLDSID_50, BESIDE_POLE),
+];
