@@ -24,7 +24,7 @@ Ignored is only what differs between two runs of one program, or with its versio
 - the slashes of paths on standard output, which are those of the platform;
 - wall times in tables, in JSON and in the columns `wall_time_s`; lines of progress of sweeps and fits;
 - `results.parquet` and `history.parquet`, the journals of sweeps and fits, which hold wall times, and `SHA256SUMS` of them;
-- the program's version; the library named in Parquet files; of MCAP files the library and, where that differs, index,
+- the program's version and build; the library named in Parquet files; of MCAP files the library and, where that differs, index,
   checksums and compression of the chunks.
 
 The cases are listed in same_outputs.toml. The fits get a small budget in the copy of scenarios/ that is used.
@@ -53,7 +53,7 @@ MOST_LINES = 6  # of differences of one case
 
 CALLS = tomllib.loads((ROOT / "tests/same_outputs.toml").read_text())
 BEGINS_WITH = CALLS["begins_with"]
-TIMED = {"results.parquet", "history.parquet", "journal", "SHA256SUMS"}  # hold wall times
+TIMED = {"results.parquet", "history.parquet", "journal", "parts", "SHA256SUMS"}  # hold wall times
 
 
 # --- What is run ------------------------------------------------------------------------------------------------------
@@ -159,6 +159,7 @@ class Part(NamedTuple):
 
 NEUTRAL = [
     (rb'"wall_time_s": [0-9.e-]+', b'"wall_time_s": TIME'),
+    (rb'"build": "[0-9a-f]*"', b'"build": BUILD'),
     (rb"[0-9.]+ s of wall time", b"TIME s of wall time"),
     (rb"samples in [0-9.]+ s,", b"samples in TIME s,"),
     (rb"(?m)^[0-9]+ (evaluations, .*: score |of [0-9]+ samples, ).*\n", b""),  # reported every few seconds

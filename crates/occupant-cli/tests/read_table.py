@@ -1,15 +1,19 @@
-"""Reads the tables of a sweep with pyarrow and DuckDB alone and compares them with each other.
+"""Reads the tables of a sweep with pyarrow, pandas and DuckDB alone and compares them with each other.
 
-    python -m pip install pyarrow duckdb
+    python -m pip install pyarrow duckdb pandas
     python read_table.py FOLDER          # of `occupant sweep STUDY -o FOLDER --csv`
+    python read_table.py FOLDER OTHER    # whose parts are those of the sweep in OTHER
 """
 
 import csv
 import json
 import sys
+import zlib
 from pathlib import Path
 
 import duckdb
+import pandas
+import pyarrow.dataset as dataset
 import pyarrow.parquet as parquet
 
 
@@ -66,6 +70,36 @@ def check(folder):
     print(f"read_table: {table.num_rows} rows, {table.num_columns} columns, {dict(counted)}")
 
 
+def check_parts(folder, whole):
+    """The parts are one table, that of the whole sweep but for wall times and kernels."""
+    paths = sorted((folder / "parts").iterdir())
+    expect(len(paths) > 1, "less than two parts")
+    expected = parquet.read_table(whole / "results.parquet")
+    same = [name for name in expected.column_names if name not in ("wall_time_s", "kernel")]
+    table = dataset.dataset(folder / "parts", format="parquet").to_table().sort_by("index").select(same)
+    expect(table.equals(expected.select(same)), "the parts are another table than the whole")
+    expect(len(pandas.read_parquet(folder / "parts")) == table.num_rows, "pandas reads another number of rows")
+    pattern = str(folder / "parts/*.parquet").replace("'", "''")
+    counted = duckdb.connect().execute(f"select count(*), min(\"index\"), max(\"index\") from '{pattern}'").fetchall()
+    expect(counted == [(table.num_rows, 0, table.num_rows - 1)], f"DuckDB reads {counted}")
+    for path in paths:
+        metadata = parquet.read_schema(path).metadata
+        about = json.loads(metadata[b"occupant.part"])
+        name = f"{about['first']:09}-{about['last']:09}.parquet"
+        rows = parquet.read_table(path, columns=["index"])["index"].to_pylist()
+        expect((path.name, rows) == (name, list(range(about["first"], about["last"] + 1))), f"{path.name} has other rows")
+        data, end = path.read_bytes(), path.stat().st_size - 8
+        end -= int.from_bytes(path.read_bytes()[-8:-4], "little")
+        for key in ("crc32", "end_crc32"):
+            data = data.replace(f'"{key}":"{about[key]}"'.encode(), f'"{key}":"00000000"'.encode())
+        found = {"crc32": f"{zlib.crc32(data):08x}", "end_crc32": f"{zlib.crc32(data[end:]):08x}"}
+        expect(found == {key: about[key] for key in found}, f"{path.name} has other checksums")
+    print(f"read_table: {len(paths)} parts, {table.num_rows} rows")
+
+
 if __name__ == "__main__":
-    expect(len(sys.argv) == 2, "usage: python read_table.py FOLDER")
-    check(Path(sys.argv[1]))
+    expect(len(sys.argv) in (2, 3), "usage: python read_table.py FOLDER [OTHER]")
+    if len(sys.argv) == 3:
+        check_parts(*map(Path, sys.argv[1:]))
+    else:
+        check(Path(sys.argv[1]))

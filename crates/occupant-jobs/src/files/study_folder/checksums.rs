@@ -11,6 +11,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
+use super::folder::{JOURNAL, PARTS};
 use super::problem::Problem;
 use crate::base::names::stays_within;
 use crate::base::{Existing, sha256_of_file, write_whole};
@@ -139,7 +140,11 @@ impl Checksums {
     /// # Errors
     /// An error of the operating system.
     pub fn put_aside(&self, path: &Path) -> Result<(), Problem> {
-        match fs::rename(path, path.with_extension("damaged")) {
+        // whoever reads all files of the folder of parts does not meet it
+        let is_part = path.parent().is_some_and(|folder| folder.ends_with(PARTS));
+        let place =
+            if is_part { self.folder.join(JOURNAL).join(path.file_name().unwrap_or_default()) } else { path.into() };
+        match fs::rename(path, place.with_extension("damaged")) {
             // another process was quicker
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             renamed => renamed.map_err(Problem::io("rename", path))?,

@@ -32,8 +32,10 @@ const MOST_TRIES: usize = 100;
 const LOCK: &str = "sweep.lock";
 const WORK: &str = "work.lock";
 const INPUTS: &str = "inputs";
-const JOURNAL: &str = "journal";
-const PARTS: &str = "parts";
+/// Folder of the journals.
+pub(super) const JOURNAL: &str = "journal";
+/// Folder of the parts of the table.
+pub(super) const PARTS: &str = "parts";
 const RUNS: &str = "runs";
 
 /// Kind of a result folder.
@@ -52,7 +54,7 @@ pub const SWEEP: &Holds = &Holds {
     word: "sweep",
     manifest: "sweep.json",
     results: &["results.parquet", "results.damaged", "results.csv", "columns.csv", "ensemble.parquet", "ensemble.csv"],
-    folders: &[(RUNS, ".mcap"), (PARTS, ".parquet"), (PARTS, ".damaged")],
+    folders: &[(RUNS, ".mcap"), (PARTS, ".parquet")],
 };
 const FIT: &Holds = &Holds {
     word: "fit",
