@@ -527,7 +527,7 @@ mod tests {
         for index in 3..9 {
             writers.iter_mut().for_each(|writer| writer.append(&fitting(index)).unwrap());
         }
-        writers.map(|writer| writer.close().unwrap());
+        writers.into_iter().for_each(|writer| writer.close().unwrap());
         assert_eq!(piece::pieces_of(&folder, &block).len(), 2);
         let found = Journal::of_block(&folder, &manifest, &block).unwrap();
         assert_eq!(rows(&found), (3..9).map(fitting).collect::<Vec<_>>());
