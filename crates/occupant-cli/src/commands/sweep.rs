@@ -96,7 +96,9 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
         (None, Some(study)) => {
             let output = args.output.clone().map_or_else(|| flags::folder_of(study), Ok)?;
             let Some(sweep) = open(args, study, &output)? else {
-                say("this part of the study has no sample: nothing to do");
+                if !args.quiet {
+                    say("this part of the study has no sample: nothing to do");
+                }
                 return Ok(Done::Well);
             };
             if args.dry_run {

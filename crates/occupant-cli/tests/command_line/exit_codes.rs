@@ -1,4 +1,4 @@
-//! Every command ends alike: 0 done, 1 it ran and broke off, 2 it could not run.
+//! Every command ends alike: 0 done, 1 it ran and broke off, 2 it could not run, 75 another process is at the same work.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -114,5 +114,29 @@ fn every_command_ends_with_0_when_done_1_when_it_broke_off_and_2_when_it_could_n
         assert!(err(&output).contains("error: "), "{bad}: {}", err(&output));
         files(folder.path(), &mut after);
         assert!(before == after, "{good}: a file was changed or left half written");
+    }
+}
+
+#[test]
+fn a_command_that_another_process_is_at_ends_with_75_and_does_its_work_later() {
+    let folder = folder_with_case();
+    fs::write(folder.path().join("study.toml"), STUDY).expect("a study");
+    for (line, lock) in [
+        ("sweep study.toml -o sweep", "sweep/work.lock"),
+        ("sweep study.toml -o sweep --range 0..2", "sweep/work.lock"),
+        ("sweep study.toml -o sweep --shard 2/3", "sweep/journal/000000001-000000001.lock"),
+        ("sweep merge sweep", "sweep/table.lock"),
+        ("optimise study.toml -o optimum", "optimum/work.lock"),
+    ] {
+        let path = folder.path().join(lock);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        let held = fs::File::create(&path).expect("a lock");
+        held.lock().expect("locks");
+        let output = answer(folder.path(), &words(line));
+        assert_eq!((code(&output), out(&output)), (75, String::new()), "{line}: {}", err(&output));
+        assert!(err(&output).contains("error: another process is working in"), "{line}: {}", err(&output));
+        drop(held);
+        let output = answer(folder.path(), &words(line));
+        assert_eq!(code(&output), 0, "{line}: {}", err(&output));
     }
 }

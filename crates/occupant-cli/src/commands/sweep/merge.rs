@@ -72,6 +72,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let (wanted, engine) = (found.worst.iter().copied().chain(runs), engine(args.threads, Kernel::best())?);
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
+    target.clear_journals_if_alone()?;
     let next = format!("occupant study report {}", quoted(target.path.display()));
     if !args.quiet {
         print(&tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))))?;

@@ -15,6 +15,7 @@ const FIRST: usize = 3;
 
 /// Outcomes of runs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Census {
     /// All runs of the study.
     pub planned: u64,

@@ -404,6 +404,16 @@ impl Folder {
         Ok(files.try_for_each(|file| remove_if_there(&file))?)
     }
 
+    /// The same if nobody else is at work, as far as the file system tells.
+    ///
+    /// # Errors
+    /// As [`Folder::clear_journals`].
+    pub fn clear_journals_if_alone(&self) -> Result<(), Problem> {
+        let held = self.lock(&self.path.join(WORK), false)?;
+        let is_alone = held.as_ref().is_some_and(|held| held.unlocked.is_none());
+        if is_alone && self.journal().exists() { self.clear_journals() } else { Ok(()) }
+    }
+
     /// Removes the files of a sweep, and nothing else.
     fn clear(&self) -> Result<(), Problem> {
         let mut files = self.files();

@@ -517,4 +517,21 @@ mod tests {
         fs::remove_file(piece).unwrap();
         assert_eq!(rows(&found), (5..9).map(fitting).collect::<Vec<_>>());
     }
+
+    /// As on a file system without locks.
+    #[test]
+    fn two_writers_of_one_block_have_files_of_their_own_and_their_rows_count_once() {
+        let (_there, folder) = folder();
+        let (manifest, block) = (manifest(9), block(3..9));
+        let mut writers = [0, 1].map(|_| JournalWriter::new(&folder, &manifest.identity(), &block));
+        for index in 3..9 {
+            writers.iter_mut().for_each(|writer| writer.append(&fitting(index)).unwrap());
+        }
+        writers.into_iter().for_each(|writer| writer.close().unwrap());
+        assert_eq!(piece::pieces_of(&folder, &block).len(), 2);
+        let found = Journal::of_block(&folder, &manifest, &block).unwrap();
+        assert_eq!(rows(&found), (3..9).map(fitting).collect::<Vec<_>>());
+        folder.clear_block(&block).unwrap();
+        assert!(piece::pieces_of(&folder, &block).is_empty());
+    }
 }

@@ -153,18 +153,20 @@ impl Part {
             if group.start >= samples.end || group.end <= samples.start {
                 continue;
             }
-            for cells in table.group(number).map_err(Problem::io("read", &self.path))? {
-                let row = Row::from_cells(cells, inputs).ok_or_else(|| self.without_row())?;
-                if samples.contains(&row.index) {
+            let rows = table.group(number).map_err(Problem::io("read", &self.path))?;
+            for (index, cells) in group.zip(rows) {
+                let row = Row::from_cells(cells, inputs).filter(|row| row.index == index);
+                let row = row.ok_or_else(|| self.without_row())?;
+                if samples.contains(&index) {
                     see(row)?;
                 }
             }
         }
-        Ok(())
+        if next == self.about.samples().end { Ok(()) } else { Err(self.without_row().into()) }
     }
 
     fn without_row(&self) -> Problem {
-        Problem::Damaged { path: self.path.clone(), found: "has a row that is none of a sweep".to_owned() }
+        Problem::Damaged { path: self.path.clone(), found: "has other rows than it says".to_owned() }
     }
 }
 

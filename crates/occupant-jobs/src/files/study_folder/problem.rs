@@ -46,7 +46,7 @@ pub enum Problem {
     },
     /// A file of the folder is invalid.
     #[error(
-        "{} {found}\n = help: run the same `occupant sweep` or `occupant fit` command again to repair it", .path.display()
+        "{} {found}\n = help: run the same `occupant sweep` or `occupant fit` command again to repair it, or remove it", .path.display()
     )]
     Damaged {
         /// The file.
