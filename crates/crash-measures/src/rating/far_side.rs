@@ -52,12 +52,14 @@ pub(super) fn share_caps(occupants: &mut [RatedOccupant]) {
     let criteria =
         |own: &RatedOccupant| own.regions.iter().flat_map(|region| region.criteria.clone()).collect::<Vec<_>>();
     let caps: Vec<_> = occupants.iter().flat_map(criteria).filter(|own| own.capped).collect();
+    let is_doubtful = caps.iter().any(|own| own.entry.doubtful);
     let by_load = caps.iter().any(|own| !is_main(&own.criterion.scale));
     for own in occupants {
         let mut scales = own.occupant.regions.iter().flat_map(|region| region.criteria).map(|own| &own.scale);
         let is_reached = if by_load { scales.any(is_either) } else { !caps.is_empty() && scales.any(is_main) };
         if is_reached {
             own.cap();
+            own.doubtful |= is_doubtful;
         }
     }
 }

@@ -326,7 +326,7 @@ impl Person<'_> {
         let is_so = |name| self.is_so(region, name, blank);
         match criterion.scale {
             Scale::Excursion => Some(far_side::worth(value, is_so(COUNTERMEASURE), is_so(RED_LINE))),
-            Scale::Beside(main) => Some(self.worth_beside(region, value, main, blank)),
+            Scale::Beside(main) => self.worth_beside(region, value, main, blank),
             scale => {
                 let factor = instrument(region.name, criterion.name).unit.factor;
                 scale.worth(value, factor, self.rating.method, self.occupant.dummy)
@@ -341,11 +341,11 @@ impl Person<'_> {
         answer.map_or(blank == Blank::Best, |answer| answer > 0.0)
     }
 
-    /// What a colour is worth beside that of the main case.
-    fn worth_beside(&self, region: &Region, value: f64, main: &str, blank: Blank) -> f64 {
+    /// What a colour is worth beside that of the main case; nothing is known without it.
+    fn worth_beside(&self, region: &Region, value: f64, main: &str, blank: Blank) -> Option<f64> {
         let index = self.rating.occupants().position(|own| own.case == main);
         let main = index.and_then(|index| self.filled.get(&(index, region.name, EXCURSION))?.value);
-        main.map_or(if blank == Blank::Best { 100.0 } else { 0.0 }, |main| far_side::worth_beside(value, main))
+        main.map_or((blank == Blank::Best).then_some(100.0), |main| Some(far_side::worth_beside(value, main)))
     }
 
     fn is_below(&self, region: &Region, other: &str, below: f64) -> bool {

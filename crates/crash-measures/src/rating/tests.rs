@@ -160,7 +160,7 @@ fn blanks_of_the_far_side_are_open() {
     let rating = Rating::named("euro-ncap-2026-far-side").unwrap();
     let alone = rating.rate(|own| own.case == "Robustness-Pole90", |_, _, _| Entry::of(0.0));
     let outcome = alone.tests[0].occupants[0].outcome;
-    assert_eq!((outcome.now, outcome.best, alone.tests[0].outcome), (0.0, 2.0, None));
+    assert_eq!((outcome.now, outcome.best, alone.tests[0].outcome, alone.is_unmet()), (0.0, 2.0, None, false));
 }
 
 /// 15, 10 and 10 points; no sum where a test or an occupant is missing.
@@ -373,6 +373,19 @@ fn a_filled_blank_stays_within_its_interval() {
             );
         }
     }
+}
+
+/// So does a load that caps the cases of others.
+#[test]
+fn a_doubtful_cap_marks_all_that_it_reaches() {
+    let rating = Rating::named("euro-ncap-2026-far-side").unwrap();
+    let fill = |occupant: &Occupant, _: &Region, criterion: &Criterion| {
+        let is_cap = occupant.case == "Main-Pole" && criterion.name == "HIC15";
+        Entry { doubtful: is_cap, ..Entry::of(if is_cap { 700.0 } else { 0.0 }) }
+    };
+    let found = rating.rate(|_| true, fill);
+    let marks: Vec<_> = found.tests[0].occupants.iter().map(|own| (own.capped, own.doubtful)).collect();
+    assert!(marks[..2].iter().all(|own| *own == (false, false)) && marks[2..].iter().all(|own| *own == (true, true)));
 }
 
 /// Every table is whole: names once, instruments for all, a document with a year, points that make the sums of the

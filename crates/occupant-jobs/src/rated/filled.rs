@@ -8,7 +8,7 @@ use occupant_files::table::{Cell, Form, Kind, TableFile};
 use super::values::COLUMNS;
 use crate::base::{Existing, Failure};
 
-/// Writes places, criteria, values and reasons for blanks; each place in each row. If a value is a colour, or yes or no,
+/// Writes places, criteria, values and reasons for blanks; each place in each row. If a value is a colour, yes or no,
 /// the column of values is one of texts.
 ///
 /// # Errors
