@@ -8,6 +8,7 @@ use super::law::Value;
 use super::morris::Trajectory;
 use super::permutation::permute;
 use super::random::{Purpose, unit};
+use super::rows::Rows;
 use super::saltelli::{self, Block};
 use occupant_scenario::{POSITIVE, Ratio};
 
@@ -48,14 +49,14 @@ pub enum Design {
         #[serde(default = "usual_tail")]
         tail: Ratio<POSITIVE>,
     },
-    /// Samples from a CSV file, one row each.
+    /// Samples from a CSV or Parquet file, one row each.
     Table {
-        /// CSV file beside the study; its first line names parameters or paths with their units, such as
-        /// `joints.neck.damping[in lbf s/rad],belts.lap.slack[mm]`.
+        /// CSV or Parquet file beside the study; its first line, or its columns, name parameters or paths with their units, such
+        /// as `joints.neck.damping[in lbf s/rad],belts.lap.slack[mm]`.
         file: String,
         /// Values of the file, one row per sample, one value per parameter.
         #[serde(skip)]
-        rows: Vec<Vec<Value>>,
+        rows: Rows,
     },
     /// Blocks for Sobol's sensitivity indices: A, A with one column of B for each parameter, B.
     Saltelli {
@@ -210,8 +211,8 @@ impl Design {
                 .collect(),
             Design::OneAtATime { tail } => low_and_high(index, tail.si(), &of.levels()),
             Design::Table { rows, .. } => {
-                let row = usize::try_from(index).ok().and_then(|i| rows.get(i));
-                let row = row.cloned().unwrap_or_else(|| vec![Value::Base; k]);
+                let row = usize::try_from(index).ok().and_then(|i| rows.row(i));
+                let row = row.unwrap_or_else(|| vec![Value::Base; k]);
                 row.into_iter().map(Coordinate::Given).collect()
             }
             Design::Saltelli { second_order, .. } => {

@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 use clap::Subcommand;
 
 use super::flags::sweep as flags;
-use crate::base::{Done, Failure, UnitsArg, listen, print, program, progress, say};
+use crate::base::{Done, Existing, Failure, UnitsArg, listen, print, program, progress, say};
 use occupant_jobs::files::scenario::warn;
 use occupant_jobs::files::study_folder::block::Block;
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::texts::Texts;
+use occupant_jobs::study::write_design;
 use occupant_jobs::sweep::job::Sweep;
 use occupant_jobs::sweep::kept;
 use occupant_jobs::sweep::plan::Plan;
@@ -66,11 +67,15 @@ pub(crate) struct Args {
     #[arg(long)]
     dry_run: bool,
 
+    /// Only write the samples, a row each, as FILE.csv, .parquet, .xlsx or .mat; a study can read them as its table of samples
+    #[arg(long, value_name = "FILE", conflicts_with = "dry_run")]
+    design_only: Option<PathBuf>,
+
     /// Also write the table as results.csv, with the units in columns.csv
     #[arg(long)]
     csv: bool,
 
-    /// Remove the results in the folder and start again
+    /// Remove the results in the folder and start again; with --design-only, replace its file
     #[arg(long)]
     restart: bool,
 
@@ -94,6 +99,9 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
         (Some(Step::Merge(args)), _) => merge::merge(args),
         (Some(Step::Status(args)), _) => status::status(args).map(|()| Done::Well),
         (None, Some(study)) => {
+            if let Some(file) = &args.design_only {
+                return design_only(args, study, file);
+            }
             let output = args.output.clone().map_or_else(|| flags::folder_of(study), Ok)?;
             let Some(sweep) = open(args, study, &output)? else {
                 if !args.quiet {
@@ -111,6 +119,16 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
         }
         (None, None) => Err(Failure::plain("give a study to sweep")),
     }
+}
+
+/// Writes the samples without running any.
+fn design_only(args: &Args, study: &Path, file: &Path) -> Result<Done, Failure> {
+    let plan = Plan::open(study, &args.overrides, &Texts::of_files(study), program())?;
+    if !args.quiet {
+        warn(&plan.warnings);
+    }
+    write_design(&plan, file, Existing::by(args.restart))?;
+    print(&format!("wrote {}, {} samples\n", file.display(), plan.study.samples())).map(Into::into)
 }
 
 /// The sweep; none for a part of the study without samples.

@@ -279,6 +279,71 @@ fn each_design_has_its_own_table() {
     }
 }
 
+/// Numbers after each place of `before`.
+fn numbers_after(text: &str, before: &str) -> Vec<f64> {
+    let number = |rest: &str| rest.split(|c: char| !(c.is_ascii_digit() || "-.".contains(c))).next()?.parse().ok();
+    text.split(before).skip(1).filter_map(number).collect()
+}
+
+/// Thirty parameters: each has a label, and every dot stands between the first and the last.
+#[test]
+fn a_plot_of_effects_has_all_parameters_inside_its_frame() {
+    let joints = ["neck", "upper_back", "lower_back"];
+    let mut study = "set = { \"time.end\" = \"5 ms\" }\ndesign = { kind = \"morris\", trajectories = 5 }\n".to_owned();
+    for i in 0..30 {
+        let joint = joints[i % 3];
+        study += &format!(
+            "[[parameters]]\nname = \"p{i}\"\npath = \"joints.{joint}.damping\"\napply = \"factor\"\nrange = {{ from = 0.9, to = 1.1 }}\n"
+        );
+    }
+    let folder = swept(&study);
+    done(folder.path(), &["study", "report", "out", "--to", "energy.greatest_kinetic"]);
+    let text = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    sane(&text);
+    let plots = text.split("<svg").find(|svg| svg.contains("Elementary effects over the whole range")).unwrap();
+    let svg = plots.split("</svg>").next().unwrap();
+    let labels: Vec<&str> = svg.split("<text").filter(|of| (0..30).any(|i| of.contains(&format!(">p{i}<")))).collect();
+    assert_eq!(labels.len(), 30);
+    let places: Vec<f64> = labels.iter().flat_map(|label| numbers_after(label, " y=\"")).collect();
+    let ends = [places[0], places[29]];
+    let dots: Vec<f64> = svg
+        .split("d=\"M")
+        .skip(1)
+        .filter(|path| path.contains("h.01"))
+        .flat_map(|path| {
+            let data = path.split('"').next().unwrap();
+            data.split('M').flat_map(|dot| numbers_after(dot, " ")).collect::<Vec<_>>()
+        })
+        .collect();
+    let inside = dots.iter().filter(|y| **y > ends[0] - 20.0 && **y < ends[1] + 10.0).count();
+    assert_eq!((dots.len(), inside), (62, 60), "μ* and σ of each, and the two of the legend below: {ends:?} {dots:?}");
+}
+
+/// The table of what matters: the most important parameter first, on the darkest shade, none for a mark.
+#[test]
+fn the_matrix_is_sorted_and_shaded_and_pairs_have_their_table() {
+    let [head, damping, speed] = STUDY.split("[[parameters]]").collect::<Vec<_>>()[..] else { panic!("{STUDY}") };
+    let turned = format!("{head}[[parameters]]{speed}\n[[parameters]]{damping}");
+    let folder = swept(&turned.replace("samples = 24", "samples = 60"));
+    let text = page(folder.path());
+    let matrix = text.split("What matters for which result").nth(1).unwrap().split("</table>").next().unwrap();
+    let shades = numbers_after(matrix, "shade-");
+    let lines: Vec<&str> = matrix.split("<tr>").skip(2).collect();
+    assert!(lines.len() == 2 && lines[0].contains("<td>joints.neck.damping</td>"), "{matrix}");
+    assert!(shades[0] == 5.0 && shades.iter().all(|shade| (1.0..=5.0).contains(shade)), "{shades:?}");
+
+    let pairs = STUDY.replace("latin_hypercube\", samples = 24", "saltelli\", samples = 16, second_order = true");
+    let folder = swept(&pairs);
+    let text = page(folder.path());
+    sane(&text);
+    assert!(text.contains("Second-order Sobol indices") && text.contains("joints.neck.damping × speed"));
+    assert!(!text.contains("shade-"), "16 points are too few for an index without a mark");
+    let numbers = rows(&folder.path().join("out/report.parquet"));
+    let second: Vec<_> = numbers.iter().filter(|row| self::text(row, "quantity") == "sobol_second").collect();
+    assert!(!second.is_empty());
+    assert!(second.iter().all(|row| self::text(row, "parameter") == "joints.neck.damping × speed"));
+}
+
 #[test]
 fn an_ensemble_without_parameters_has_a_page() {
     let study = "set = { \"time.end\" = \"15 ms\" }\n[ensemble]\nmembers = 4\n";

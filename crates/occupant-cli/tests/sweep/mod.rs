@@ -1,6 +1,7 @@
 //! Sweeps as sentences: what a user types, what is killed, and what the table says afterwards.
 
 mod damaged;
+mod design;
 mod interrupted;
 mod kept;
 mod limits;

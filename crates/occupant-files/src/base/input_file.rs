@@ -39,7 +39,7 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
         ));
     }
     let most = match ending(path).as_str() {
-        "mcap" => None,
+        "mcap" | "parquet" => None,
         "toml" | "json" => Some(MOST_OF_SCENARIO),
         _ => Some(MOST_OF_TABLE),
     };

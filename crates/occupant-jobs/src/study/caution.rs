@@ -142,7 +142,9 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
         let help = "`occupant run` of such a sample explains the caveats and the results they affect.";
         notes.push(format!("Caveats. {}. {help}", caveats.join("; ")));
     }
-    notes.extend(all_too_coarse(opened, gathered));
+    let responses = gathered.samples.responses.iter().map(|response| response.name.as_str()).zip(&gathered.spoiled);
+    let present_s = |key: &str| opened.plan.study.base.places(key).ok().and_then(|places| places.first()?.si);
+    notes.extend(all_too_coarse(&responses.collect::<Vec<_>>(), present_s));
     let study = &opened.plan.study;
     if !matches!(study.design, Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }) {
         notes.extend(together(&gathered.samples));
@@ -155,25 +157,23 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     notes
 }
 
-/// What mends readings that are too coarse, of figures of which every value is.
-fn all_too_coarse(opened: &Stored, gathered: &Gathered) -> Vec<String> {
+/// What mends readings that are too coarse, of responses of which every value is; `present_s` is the value of a key in the base.
+fn all_too_coarse(responses: &[(&str, &Spoiled)], present_s: impl Fn(&str) -> Option<f64>) -> Vec<String> {
     let mends = [("outputs_too_coarse", "output.interval"), ("readings_too_coarse", "integrator.step")];
     let of = |(caveat, key): (&str, &str)| {
-        let responses = gathered.samples.responses.iter().zip(&gathered.spoiled);
         let of_all = |spoiled: &Spoiled| {
-            let count: usize = spoiled.names.iter().filter(|(name, _)| name.ends_with(caveat)).map(|(_, n)| n).sum();
-            spoiled.of > 0 && count >= spoiled.of
+            let marked = spoiled.names.iter().filter(|(name, _)| name.ends_with(caveat));
+            spoiled.of > 0 && marked.map(|(_, runs)| runs).sum::<usize>() >= spoiled.of
         };
         let figures: Vec<&str> =
-            responses.filter(|(_, spoiled)| of_all(spoiled)).map(|(response, _)| response.name.as_str()).collect();
-        let present_s = opened.plan.study.base.places(key).ok().and_then(|places| places.first()?.si);
+            responses.iter().filter(|(_, spoiled)| of_all(spoiled)).map(|(name, _)| *name).collect();
         let told = |s: f64| format!("{} ms", (1e9 * s).round() / 1e6);
-        let present = present_s.map_or(String::new(), |s| format!(" (here {})", told(s)));
-        let example = format!("set = {{ \"{key}\" = \"{}\" }}", told(present_s.map_or(1e-4, |s| 0.5 * s)));
+        let present = present_s(key).map_or(String::new(), |s| format!(" than {}", told(s)));
+        let example = told(present_s(key).map_or(1e-4, |s| 0.5 * s));
+        let all = figures.join(", ");
         (!figures.is_empty()).then(|| {
             format!(
-                "Every value of {} is marked {caveat}: give the study a shorter `{key}`{present}, such as {example}, and run it again.",
-                figures.join(", ")
+                "Every value of {all} is marked {caveat}: a shorter `{key}`{present} mends it, such as set = {{ \"{key}\" = \"{example}\" }}."
             )
         })
     };
@@ -207,6 +207,27 @@ fn together(samples: &Samples) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_mends_readings_is_said_where_every_value_is_too_coarse() {
+        let spoiled = |of: usize, marks: &[(&str, usize)]| Spoiled {
+            runs: of,
+            of,
+            names: marks.iter().map(|(name, runs)| ((*name).to_owned(), *runs)).collect(),
+        };
+        let [all, some] = [10, 9].map(|runs| spoiled(10, &[("outputs_too_coarse", runs), ("balance", 10)]));
+        let [of_steps, none] = [spoiled(10, &[("readings_too_coarse", 10)]), spoiled(0, &[])];
+        let responses = [("chest.peak", &all), ("hic15", &some), ("head.peak", &of_steps), ("nij", &none)];
+        let said = all_too_coarse(&responses, |key| (key == "output.interval").then_some(0.01));
+        assert_eq!(
+            said,
+            [
+                "Every value of chest.peak is marked outputs_too_coarse: a shorter `output.interval` than 10 ms mends it, such as set = { \"output.interval\" = \"5 ms\" }.",
+                "Every value of head.peak is marked readings_too_coarse: a shorter `integrator.step` mends it, such as set = { \"integrator.step\" = \"0.1 ms\" }."
+            ]
+        );
+        assert!(all_too_coarse(&responses[1..2], |_| None).is_empty());
+    }
 
     #[test]
     fn a_number_is_marked_exactly_where_a_rule_says_so() {

@@ -59,17 +59,20 @@ fn most(of: &Finding<'_>) -> f64 {
     if is_of_unit { all().map(|one| one.value.abs()).fold(0.0, f64::max) } else { 1.0 }
 }
 
-/// Parameters by their largest influence on any measure, the most important first.
+/// Parameters by their largest influence on any measure, the most important first. Unreliable ones decide among those that have
+/// no other.
 fn sorted(told: &[(Finding<'_>, String)], parameters: usize) -> Vec<usize> {
     let most: Vec<f64> = told.iter().map(|(of, _)| most(of)).collect();
-    let largest = |i: usize| {
-        let shares =
-            told.iter().zip(&most).filter_map(|((of, _), most)| Some(Influence::of(of, i)?.value.abs() / most));
+    let largest = |i: usize, is_marked: bool| {
+        let found = told.iter().zip(&most).filter_map(|((of, _), most)| Some((Influence::of(of, i)?, most)));
+        let shares = found.filter(|(one, _)| one.mark.is_some() == is_marked).map(|(one, most)| one.value.abs() / most);
         shares.filter(|share| share.is_finite()).fold(-1.0, f64::max)
     };
-    let mut order: Vec<(f64, usize)> = (0..parameters).map(|i| (largest(i), i)).collect();
-    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    order.into_iter().map(|(_, i)| i).collect()
+    let weights: Vec<[f64; 2]> = (0..parameters).map(|i| [false, true].map(|marked| largest(i, marked))).collect();
+    let mut order: Vec<usize> = (0..parameters).collect();
+    let by = |a: usize, b: usize, at: usize| weights[b][at].total_cmp(&weights[a][at]);
+    order.sort_by(|a, b| by(*a, *b, 0).then(by(*a, *b, 1)));
+    order
 }
 
 /// Measures that vary, with their headings.
@@ -116,6 +119,7 @@ pub(super) fn section(html: &mut Html, report: &Report) {
     };
     html.table_under(&heads, &sorted(&told, inputs.len()).into_iter().map(row).collect::<Vec<_>>());
     html.text("p class=\"remark\"", "Values over all runs, in the unit of each result:");
+    let heads: Vec<String> = std::iter::once("quantile".to_owned()).chain(heads.into_iter().skip(1)).collect();
     html.table_under(&heads, &spread);
 }
 

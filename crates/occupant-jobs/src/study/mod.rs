@@ -12,6 +12,7 @@ pub mod analysis;
 pub mod bands;
 pub mod caution;
 mod command;
+mod design;
 mod gather;
 mod groups;
 mod matrix;
@@ -31,6 +32,7 @@ mod tables;
 pub mod worst;
 mod writing;
 
+pub use design::write_design;
 pub use matrix::text as matrix_text;
 pub use page::{page, subject};
 pub use quoting::{Answer, all_words, answer, text as paragraphs};

@@ -313,7 +313,7 @@ fn has_texts(study: &Study, at: usize) -> bool {
     let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
     match (study.parameters.get(at).map(|p| &p.law), &study.design) {
         (Some(Law::List(values)), _) => values.iter().any(text),
-        (Some(Law::Table), Design::Table { rows, .. }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
+        (Some(Law::Table), Design::Table { rows, .. }) => rows.has_words(at),
         _ => false,
     }
 }

@@ -19,6 +19,8 @@ use super::{AnalysisError, Estimate};
 
 /// Smallest number of points for an index.
 const LEAST_POINTS: usize = 16;
+/// Largest number of parameters with indices of pairs: there are k(k − 1)/2.
+const MOST_PAIRED: usize = 100;
 
 /// First-order, second-order and total indices of all parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +29,7 @@ pub struct SobolIndices {
     pub first: Vec<Estimate>,
     /// STᵢ, by parameter.
     pub total: Vec<Estimate>,
-    /// Sᵢⱼ of each pair i < j; empty for a design without the blocks for them.
+    /// Sᵢⱼ of each pair i < j; empty for a design without the blocks for them, and for more than 100 parameters.
     pub second: Vec<([usize; 2], Estimate)>,
     /// Effective number of points behind STᵢ, by parameter: (Σd²)²/Σd⁴ of the differences d = f_A − f_ABᵢ. Equal to all
     /// points if the parameter acts equally everywhere, small if it acts rarely, 0 if no point shows an effect. The
@@ -77,7 +79,7 @@ impl SobolSums {
     /// No points yet, of so many parameters; `second_order` tells whether there are rows of BA.
     pub fn new(parameters: usize, second_order: bool, by: Grouping) -> Self {
         let pairs = (0..parameters).flat_map(|i| (i + 1..parameters).map(move |j| [i, j]));
-        let pairs: Vec<_> = pairs.filter(|_| second_order).collect();
+        let pairs: Vec<_> = pairs.filter(|_| second_order && parameters <= MOST_PAIRED).collect();
         let sums = Sums::new(COMMON + EACH * parameters + pairs.len(), by);
         SobolSums { parameters, pairs, sums, origin: None, points: 0, dropped: 0 }
     }

@@ -1,13 +1,22 @@
-//! The samples of a CSV file: a line of names with units, then one line for each sample.
+//! The samples of a CSV or Parquet file: names with units, then one row for each sample.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use bytes::Bytes;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 
 use super::Binder;
+use super::design::MOST_RUNS;
 use super::law::kind_of;
 use crate::law::{Law, Value};
 use crate::parameter::{Parameter, Target, si_unit};
+use crate::rows::Rows;
 use crate::section::ApplyChoice;
 use occupant_scenario::kind::Kind;
 use occupant_scenario::{Diagnostic, Resolver, Wanted};
-use placed_text::{Cell, Problem, Separator, Sources, Span, lines, name_and_unit, one_of, text_of};
+use placed_text::{CELL, Cell, Problem, Separator, Sources, Span, lines, name_and_unit, one_of, shortened, text_of};
 
 /// Reading of the cells of a column.
 struct Column {
@@ -18,25 +27,23 @@ struct Column {
 }
 
 /// The samples of a file. A heading that names no parameter is a path, which becomes a parameter.
-pub(super) fn rows(
-    binder: &mut Binder,
-    file: &str,
-    parameters: &mut Vec<Parameter>,
-    resolver: Resolver,
-) -> Vec<Vec<Value>> {
+pub(super) fn rows(binder: &mut Binder, file: &str, parameters: &mut Vec<Parameter>, resolver: Resolver) -> Rows {
     let bytes = match resolver(file) {
         Ok(bytes) => bytes,
         Err(reason) => {
             let found = format!("`{file}` cannot be read: {reason}");
-            binder.error("design.file", found, "a CSV file, its name relative to the study", None);
-            return Vec::new();
+            binder.error("design.file", found, "a CSV or Parquet file, its name relative to the study", None);
+            return Rows::default();
         }
     };
+    if bytes.starts_with(PARQUET) {
+        return of_parquet(binder, file, bytes, parameters);
+    }
     let text = match text_of(&bytes, file) {
         Ok(text) => text,
         Err(problems) => {
             binder.problems.extend(problems);
-            return Vec::new();
+            return Rows::default();
         }
     };
     let mut sources = Sources::new();
@@ -47,10 +54,12 @@ pub(super) fn rows(
     let Some(header) = lines.next() else {
         let start = sources.start_of(id);
         reader.error(start, "an empty table", "a line that names the columns");
-        return Vec::new();
+        return Rows::default();
     };
-    let columns = reader.header(header, parameters);
-    let rows: Vec<Vec<Value>> = lines.filter_map(|line| reader.row(line, &columns, parameters.len())).collect();
+    let cells = reader.separator.cells(&sources, header);
+    let columns = reader.header(&cells, header, parameters);
+    let mut rows = Rows::default();
+    lines.filter_map(|line| reader.row(line, &columns, parameters.len())).for_each(|row| rows.push(row));
     if rows.is_empty() && !reader.binder.problems.has_errors() {
         reader.error(header, "a table without samples", "one line per sample");
     }
@@ -73,10 +82,11 @@ impl Reader<'_, '_, '_> {
         self.binder.problems.add(problem, |problem| Diagnostic::at(sources, span, problem));
     }
 
-    fn header(&mut self, line: Span, parameters: &mut Vec<Parameter>) -> Vec<Option<Column>> {
+    /// The columns under these headings, which are at `line`.
+    fn header(&mut self, cells: &[Cell], line: Span, parameters: &mut Vec<Parameter>) -> Vec<Option<Column>> {
         let mut columns: Vec<Option<Column>> = Vec::new();
-        for cell in self.separator.cells(self.sources, line) {
-            let column = self.column(&cell, parameters);
+        for cell in cells {
+            let column = self.column(cell, parameters);
             let taken = |c: &Column| columns.iter().flatten().any(|o| o.parameter == c.parameter);
             match column {
                 Some(column) if taken(&column) => {
@@ -87,7 +97,6 @@ impl Reader<'_, '_, '_> {
                 column => columns.push(column),
             }
         }
-        let cells = self.separator.cells(self.sources, line);
         for parameter in parameters.iter() {
             if !cells.iter().any(|c| name_and_unit(c.text).0 == parameter.name) {
                 let found = format!("no column `{}`", parameter.name);
@@ -188,20 +197,137 @@ impl Reader<'_, '_, '_> {
                 }
             };
         }
-        let value = match (&column.wanted, cell.text) {
+        let value = column.word(cell.text);
+        if value.is_none() {
+            self.error(cell.span, format!("`{}`", cell.text), column.expected());
+        }
+        value
+    }
+}
+
+impl Column {
+    /// A word as a value.
+    fn word(&self, text: &str) -> Option<Value> {
+        match (&self.wanted, text) {
             (Wanted::Truth, "true") => Some(Value::Truth(true)),
             (Wanted::Truth, "false") => Some(Value::Truth(false)),
             (Wanted::Names(names), text) if names.contains(&text) => Some(Value::Text(text.into())),
             (Wanted::Text, text) if !text.is_empty() => Some(Value::Text(text.into())),
             _ => None,
-        };
-        if value.is_none() {
-            let expected = match &column.wanted {
-                Wanted::Names(names) => one_of(names, '"'),
-                wanted => wanted.noun().to_owned(),
-            };
-            self.error(cell.span, format!("`{}`", cell.text), expected);
         }
-        value
     }
+
+    /// What its cells are.
+    fn expected(&self) -> String {
+        match (&self.kind, &self.wanted) {
+            (Some(_), _) => "a number".to_owned(),
+            (None, Wanted::Names(names)) => one_of(names, '"'),
+            (None, wanted) => wanted.noun().to_owned(),
+        }
+    }
+
+    /// A field of Parquet as a value.
+    fn field(&self, field: &Field) -> Option<Value> {
+        if self.kind.is_none() {
+            return match field {
+                Field::Str(text) => self.word(text),
+                Field::Bool(truth) => self.word(&truth.to_string()),
+                _ => None,
+            };
+        }
+        let number = match field {
+            Field::Double(x) => *x,
+            Field::Float(x) => f64::from(*x),
+            Field::Byte(n) => f64::from(*n),
+            Field::Short(n) => f64::from(*n),
+            Field::Int(n) => f64::from(*n),
+            Field::Long(n) => *n as f64,
+            Field::UByte(n) => f64::from(*n),
+            Field::UShort(n) => f64::from(*n),
+            Field::UInt(n) => f64::from(*n),
+            Field::ULong(n) => *n as f64,
+            _ => return None,
+        };
+        let value = number * self.factor;
+        value.is_finite().then_some(Value::Number(value))
+    }
+}
+
+/// First bytes of a Parquet file.
+const PARQUET: &[u8] = b"PAR1";
+
+/// The samples of a Parquet file, read by groups of rows.
+fn of_parquet(binder: &mut Binder, file: &str, bytes: Vec<u8>, parameters: &mut Vec<Parameter>) -> Rows {
+    let reader = match unbroken(|| SerializedFileReader::new(Bytes::from(bytes))).flatten() {
+        Ok(reader) => reader,
+        Err(error) => {
+            binder.error("design.file", format!("`{file}` cannot be read: {error}"), "a Parquet file", None);
+            return Rows::default();
+        }
+    };
+    let schema = reader.metadata().file_metadata().schema();
+    let names: Vec<&str> = schema.get_fields().iter().map(|field| field.name()).collect();
+    // a line for each column, so that messages can point at it
+    let mut sources = Sources::new();
+    let id = sources.add_named(format!("{file}, columns"), names.join("\n"));
+    let spans: Vec<Span> = lines(&sources, id).collect();
+    let start = sources.start_of(id);
+    let mut headings = Reader { sources: &sources, separator: Separator::of(","), binder };
+    if spans.len() != names.len() || names.is_empty() {
+        headings.error(start, "a column without a name, or with one of several lines", "names of parameters or paths");
+        return Rows::default();
+    }
+    let cells: Vec<Cell> = spans.iter().map(|span| Cell { text: sources.slice(*span).trim(), span: *span }).collect();
+    let columns = headings.header(&cells, start, parameters);
+    let mut rows = Rows::default();
+    if headings.binder.problems.has_errors() {
+        return rows;
+    }
+    let unread =
+        |error: ParquetError| (start, format!("a row that cannot be read: {error}"), "a Parquet file".to_owned());
+    let read = unbroken(|| {
+        each_row(&reader, |fields| {
+            let mut row = vec![Value::Base; parameters.len()];
+            for ((column, field), span) in columns.iter().zip(fields).zip(&spans) {
+                let Some(column) = column else { continue };
+                row[column.parameter] = column.field(field).ok_or_else(|| {
+                    let found = shortened(&field.to_string(), CELL);
+                    (*span, format!("`{found}` in row {}", rows.len() + 1), column.expected())
+                })?;
+            }
+            rows.push(row);
+            match rows.len() as u64 > MOST_RUNS {
+                true => Err((start, format!("more than {MOST_RUNS} rows"), format!("at most {MOST_RUNS}"))),
+                false => Ok(()),
+            }
+        })
+    });
+    let found = read.flatten().unwrap_or_else(|error| Err(unread(error)));
+    if let Err((span, found, expected)) = found {
+        headings.error(span, found, expected);
+    } else if rows.is_empty() {
+        headings.error(start, "a table without samples", "one row per sample");
+    }
+    rows
+}
+
+/// What is wrong with a row: its column, what was found and what was expected.
+type Misfit = (Span, String, String);
+
+/// What a reader of Parquet gives; it panics on some damaged files.
+fn unbroken<T>(read: impl FnOnce() -> T) -> Result<T, ParquetError> {
+    catch_unwind(AssertUnwindSafe(read)).map_err(|_| ParquetError::General("it is damaged".to_owned()))
+}
+
+/// Passes on the fields of each row, until one does not fit.
+fn each_row(
+    reader: &SerializedFileReader<Bytes>,
+    mut see: impl FnMut(&[&Field]) -> Result<(), Misfit>,
+) -> Result<Result<(), Misfit>, ParquetError> {
+    for row in reader.get_row_iter(None)? {
+        if let Err(misfit) = see(&row?.get_column_iter().map(|(_, field)| field).collect::<Vec<_>>()) {
+            return Ok(Err(misfit));
+        }
+    }
+    Ok(Ok(()))
 }

@@ -65,3 +65,122 @@ error: 2 values
     let empty = with("").unwrap_err().to_string();
     assert!(empty.contains("an empty table"), "{empty}");
 }
+
+/// Columns of a Parquet file with these values: numbers, or words; NaN and an empty word are missing.
+fn parquet(columns: &[(&str, Column)]) -> Vec<u8> {
+    use parquet::basic::{LogicalType, Repetition, Type as Physical};
+    use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+    use parquet::file::properties::WriterProperties;
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::types::Type;
+    let field = |(name, column): &(&str, Column)| {
+        let (physical, logical) = match column {
+            Column::Numbers(_) => (Physical::DOUBLE, None),
+            Column::Counts(_) => (Physical::INT64, None),
+            Column::Words(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let built = Type::primitive_type_builder(name, physical).with_repetition(Repetition::OPTIONAL);
+        built.with_logical_type(logical).build().unwrap().into()
+    };
+    let fields = columns.iter().map(field).collect();
+    let schema = Type::group_type_builder("t").with_fields(fields).build().unwrap().into();
+    let properties = WriterProperties::builder().build().into();
+    let mut writer = SerializedFileWriter::new(Vec::new(), schema, properties).unwrap();
+    // two groups of rows
+    for half in 0..2 {
+        let mut group = writer.next_row_group().unwrap();
+        for (_, column) in columns {
+            let mut out = group.next_column().unwrap().unwrap();
+            let part = |len: usize| if half == 0 { 0..len / 2 } else { len / 2..len };
+            match column {
+                Column::Numbers(all) => {
+                    let all = &all[part(all.len())];
+                    let levels: Vec<i16> = all.iter().map(|x| i16::from(!x.is_nan())).collect();
+                    let there: Vec<f64> = all.iter().copied().filter(|x| !x.is_nan()).collect();
+                    out.typed::<DoubleType>().write_batch(&there, Some(&levels), None).unwrap();
+                }
+                Column::Counts(all) => {
+                    let all = &all[part(all.len())];
+                    out.typed::<Int64Type>().write_batch(all, Some(&vec![1; all.len()]), None).unwrap();
+                }
+                Column::Words(all) => {
+                    let all: Vec<ByteArray> = all[part(all.len())].iter().map(|word| (*word).into()).collect();
+                    out.typed::<ByteArrayType>().write_batch(&all, Some(&vec![1; all.len()]), None).unwrap();
+                }
+            }
+            out.close().unwrap();
+        }
+        group.close().unwrap();
+    }
+    writer.into_inner().unwrap()
+}
+
+#[derive(Clone)]
+enum Column {
+    Numbers(Vec<f64>),
+    Counts(Vec<i64>),
+    Words(Vec<&'static str>),
+}
+
+fn with_parquet(bytes: &[u8]) -> Result<super::Study, Diagnostics> {
+    let text = STUDY.replace("samples.csv", "samples.parquet");
+    let text = StudyText::read(&text, Format::Toml, "study.toml").unwrap();
+    text.bind(base(), &[], &|_| Ok(bytes.to_vec()))
+}
+
+#[test]
+fn a_parquet_file_gives_the_samples_of_the_csv_file() {
+    let csv = "belts.lap.slack[mm], damping, path.shape\n10, 1, square\n25.4, 2, half_sine\n3, 4, square\n";
+    let columns = [
+        ("belts.lap.slack[mm]", Column::Numbers(vec![10.0, 25.4, 3.0])),
+        ("damping", Column::Counts(vec![1, 2, 4])),
+        ("path.shape", Column::Words(vec!["square", "half_sine", "square"])),
+    ];
+    let [one, other] =
+        [with(csv), with_parquet(&parquet(&columns))].map(|study| study.unwrap_or_else(|e| panic!("{e}")));
+    assert_eq!([one.len(), other.len()], [3, 3]);
+    (0..3).for_each(|sample| assert_eq!(one.sample(sample), other.sample(sample)));
+    assert_eq!(other.sample(2)[2].value, Value::Text("square".into()));
+}
+
+#[test]
+fn what_is_wrong_with_a_parquet_file_is_told_with_its_column_and_row() {
+    let said = |columns: &[(&str, Column)]| with_parquet(&parquet(columns)).unwrap_err().to_string();
+    let damping = ("damping", Column::Numbers(vec![1.0, 2.0]));
+    let words = said(&[damping.clone(), ("path.shape", Column::Words(vec!["square", "sine"]))]);
+    assert!(words.contains("`\"sine\"` in row 2") && words.contains("samples.parquet, columns:2:1"), "{words}");
+    let missing = said(&[("damping", Column::Numbers(vec![1.0, f64::NAN]))]);
+    assert!(missing.contains("`null` in row 2") && missing.contains("a number"), "{missing}");
+    let infinite = said(&[("damping", Column::Numbers(vec![f64::INFINITY, 1.0]))]);
+    assert!(infinite.contains("in row 1"), "{infinite}");
+    let text = said(&[("damping", Column::Words(vec!["1", "2"]))]);
+    assert!(text.contains("in row 1") && text.contains("a number"), "{text}");
+    let unit = said(&[damping.clone(), ("posture.head", Column::Numbers(vec![1.0, 2.0]))]);
+    assert!(unit.contains("without a unit"), "{unit}");
+    let twice = said(&[damping.clone(), ("damping", Column::Numbers(vec![1.0, 2.0]))]);
+    assert!(twice.contains("two columns for `damping`"), "{twice}");
+    let lines = said(&[damping, ("a\nb", Column::Numbers(vec![1.0, 2.0]))]);
+    assert!(lines.contains("one of several lines"), "{lines}");
+    let none = said(&[("damping", Column::Numbers(Vec::new()))]);
+    assert!(none.contains("a table without samples"), "{none}");
+}
+
+/// No byte of a damaged file is a panic.
+#[test]
+fn a_damaged_parquet_file_is_refused_or_read() {
+    let whole = parquet(&[
+        ("damping", Column::Numbers((0..40).map(f64::from).collect())),
+        ("path.shape", Column::Words(vec!["square"; 40])),
+    ]);
+    let mut refused = 0;
+    for at in 4..whole.len() {
+        for bits in [0x01, 0x80, 0xff] {
+            let mut damaged = whole.clone();
+            damaged[at] ^= bits;
+            refused += usize::from(with_parquet(&damaged).is_err());
+        }
+        let cut = with_parquet(&whole[..at]).unwrap_err().to_string();
+        assert!(cut.contains("cannot be read"), "{cut}");
+    }
+    assert!(refused > whole.len() / 4, "{refused}");
+}
