@@ -7,6 +7,7 @@ mod batch;
 mod convert;
 mod force;
 mod live;
+mod rating;
 mod results;
 mod run;
 mod scenario;
@@ -20,6 +21,8 @@ use pyo3::prelude::*;
 mod _occupant {
     #[pymodule_export]
     use super::live::LiveRun;
+    #[pymodule_export]
+    use super::rating::rate;
     #[pymodule_export]
     use super::results::{compare, film, read, report, view};
     #[pymodule_export]

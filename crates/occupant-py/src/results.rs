@@ -27,13 +27,13 @@ use crate::trouble::{failed, plain};
 use crate::work::{Progress, SHOW, work};
 
 /// A run, or a file.
-enum Given<'py> {
+pub(crate) enum Given<'py> {
     Run(Bound<'py, Run>),
     File(PathBuf),
 }
 
 impl<'py> Given<'py> {
-    fn of(given: &Bound<'py, PyAny>) -> PyResult<Self> {
+    pub(crate) fn of(given: &Bound<'py, PyAny>) -> PyResult<Self> {
         match given.cast::<Run>() {
             Ok(run) => Ok(Given::Run(run.clone())),
             Err(_) => Ok(Given::File(given.extract()?)),
@@ -52,7 +52,7 @@ impl<'py> Given<'py> {
         }
     }
 
-    fn results(&self, py: Python<'_>) -> PyResult<Results> {
+    pub(crate) fn results(&self, py: Python<'_>) -> PyResult<Results> {
         let opened = match self {
             Given::File(path) => py.detach(|| Results::open(path)),
             Given::Run(run) => {

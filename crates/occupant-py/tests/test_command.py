@@ -164,6 +164,25 @@ def test_ratings_are_those_of_the_command(command, tmp_path):
     same(occupant.compare(*runs, **options)["pairs"], answer["pairs"])
 
 
+def test_points_are_those_of_the_command(command, tmp_path):
+    driver = ROOT / "scenarios" / "airbag-driver.toml"
+    file = result(command, tmp_path, driver, "--until", "60 ms")
+    rating = "euro-ncap-2026-full-width"
+    words = ["--rating", rating, "--place", "driver", "--json"]
+    answer = json.loads(command("measures", file, *words, "-o", tmp_path / "theirs.csv"))
+    own = occupant.rate(rating, file, places=["driver"], path=tmp_path / "own.csv")
+    same(own, answer)
+    assert (tmp_path / "own.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
+    same(occupant.rate(rating, values=tmp_path / "own.csv"), json.loads(
+        command("measures", "--rating", rating, "--values", tmp_path / "own.csv", "--json")))
+    with pytest.raises(occupant.OccupantError, match="expected one of euro-ncap-2026-frontal"):
+        occupant.rate("euro", file)
+    with pytest.raises(occupant.OccupantError, match="no run and no values"):
+        occupant.rate(rating)
+    with pytest.raises(occupant.OccupantError, match="no occupant of"):
+        occupant.rate(rating, file, places=["pilot"])
+
+
 def test_a_report_is_that_of_the_command(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result(command, tmp_path, CART, "--until", "40 ms")

@@ -1,6 +1,7 @@
 //! Ratings of runs and tests: which occupant of a rating a body is, what it is rated by, words on what it is not.
 
 mod answer;
+pub mod bodies;
 mod filled;
 mod text;
 mod values;

@@ -235,6 +235,7 @@ mod tests {
         let found = |points, dropped| SobolIndices {
             first: Vec::new(),
             total: Vec::new(),
+            second: Vec::new(),
             carrying: vec![20.0, 4.0, 0.0],
             mean: 0.0,
             variance: 1.0,

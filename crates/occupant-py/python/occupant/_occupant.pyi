@@ -28,6 +28,14 @@ def compare(
     coefficients: str = "iso6487",
     protocol: str | None = None,
 ) -> dict[str, Any]: ...
+def rate(
+    rating: str,
+    *runs: Run | _Path,
+    places: Sequence[str] = ...,
+    values: _Path | None = None,
+    path: _Path | None = None,
+    force: bool = False,
+) -> dict[str, Any]: ...
 def report(
     *runs: Run | _Path, path: _Path, channels: Sequence[str] = ..., verdict: bool = False, force: bool = False
 ) -> None: ...
