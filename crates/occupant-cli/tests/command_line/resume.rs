@@ -54,6 +54,7 @@ fn a_run_in_two_parts_is_the_run_in_one() {
         assert!(expected.len() > 1000);
         assert!(found == expected);
         assert_eq!(rest.result, whole.result);
+        assert_eq!((rest.flaw(), rest.ending()), (None, whole.ending()));
         assert_eq!(rest.run["resumed_from"], "first.mcap");
         assert_eq!(rest.run["resumed_at_s"], "0.06");
         assert_eq!(rest.run["resumed_output"], first.index.to_string());

@@ -153,7 +153,9 @@ impl StoredRun {
     /// Numbers of the outputs missing from the file.
     fn gaps(&self) -> Vec<Range<usize>> {
         let number = |entries: &BTreeMap<String, String>, key| entries.get(key)?.parse::<usize>().ok();
-        let first = number(&self.run, "resumed_output").unwrap_or(0);
+        // a resumed run has the outputs before; files of older programs have none of them and do not count them
+        let has_all = self.checkpoints.first().is_some_and(|first| first.index == 0);
+        let first = number(&self.run, "resumed_output").filter(|_| !has_all).unwrap_or(0);
         let count = self.result.as_ref().and_then(|result| number(result, "outputs"));
         let end = count.map(|count| first.saturating_add(count));
         let there = self.checkpoints.iter().map(|checkpoint| checkpoint.index);
