@@ -254,11 +254,12 @@ fn a_checkpoint_of_an_older_version_goes_on() {
 #[test]
 fn a_file_without_the_loads_of_legs_has_all_other_measures() {
     const LEGS: usize = 12;
-    let (model, whole, _) = run(&seventeen(RK4));
+    let (model, whole, outcome) = run(&seventeen(RK4));
     let measures = |checkpoints: &[Checkpoint]| {
         let mut summarizer = Summarizer::new();
         summarizer.begin(&model).unwrap();
         checkpoints.iter().for_each(|checkpoint| replay(&model, checkpoint, &mut summarizer).unwrap());
+        summarizer.end(&outcome).unwrap();
         let summary = summarizer.summary(None).unwrap();
         let all = summary.measures.into_iter().map(|m| (m.name, m.value.map(f64::to_bits)));
         all.collect::<Vec<_>>()

@@ -99,7 +99,10 @@ fn a_run_that_ends_earlier_stays() {
     let clock = |frame: usize, from: usize| -> Vec<[u8; 3]> {
         frames[frame].chunks(width).take(12).flat_map(|row| row[from + 110..from + 158].to_vec()).collect()
     };
-    assert!((0..4).all(|frame| clock(frame, 2) == clock(frame, 162)) && clock(1, 2) != clock(3, 2));
+    // the words stand on a translucent ground, and a GIF has 256 colours
+    let is_like =
+        |a: &[[u8; 3]], b: &[[u8; 3]]| a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| a.abs_diff(*b) < 8);
+    assert!((0..4).all(|frame| is_like(&clock(frame, 2), &clock(frame, 162))) && !is_like(&clock(1, 2), &clock(3, 2)));
 }
 
 /// A run beside itself is twice the same half; another one differs.

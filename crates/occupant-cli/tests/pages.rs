@@ -127,7 +127,7 @@ fn every_command_that_a_page_names_exists() {
         let page = fs::read_to_string(path).expect("a page");
         for code in named(&page).chain(commands(&page)) {
             let words: Vec<&str> = code.split_whitespace().skip(1).collect();
-            let depth = if matches!(words[..], ["study", _, ..] | ["sweep", "merge", ..]) { 2 } else { 1 };
+            let depth = if matches!(words[..], ["study", _, ..] | ["sweep", "merge" | "status", ..]) { 2 } else { 1 };
             let command: Vec<&str> = words.iter().take(depth).copied().chain(["--help"]).collect();
             if command[0].starts_with('-') || !command[0].chars().all(char::is_lowercase) {
                 continue;

@@ -4,8 +4,6 @@
 //! next: J. I. Munro, M. S. Paterson, Theor. Comput. Sci. 12 (1980); G. S. Manku et al., SIGMOD (1998). Which ones move
 //! alternates, so that most errors cancel. The same values in the same order give the same bits.
 
-use crate::spread::{quantile_of_sorted, sorted};
-
 /// Values of which quantiles are wanted.
 #[derive(Clone, Debug, Default)]
 pub struct Sketch {
@@ -204,6 +202,26 @@ impl Ordered {
         let first = self.values.partition_point(|value| *value <= limit);
         let upto = first.checked_sub(1).map_or(0, |last| self.upto.get(last).copied().unwrap_or(first));
         self.len() - upto
+    }
+}
+
+/// The finite numbers in increasing order.
+pub fn sorted(values: &[f64]) -> Vec<f64> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    sorted
+}
+
+/// Quantile `p` of sorted numbers, of which there must be one.
+pub(crate) fn quantile_of_sorted(sorted: &[f64], p: f64) -> f64 {
+    let place = (sorted.len() - 1) as f64 * p.clamp(0.0, 1.0);
+    let below = place.floor() as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    let part = place - below as f64;
+    if part == 0.0 || sorted[below] == sorted[above] {
+        sorted[below]
+    } else {
+        sorted[below] * (1.0 - part) + sorted[above] * part
     }
 }
 

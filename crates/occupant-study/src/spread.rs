@@ -5,7 +5,8 @@
 
 use serde::Serialize;
 
-use crate::sketch::Sketch;
+pub use crate::sketch::sorted;
+use crate::sketch::{Sketch, quantile_of_sorted};
 
 /// Spread of a figure over the members of an ensemble.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -120,13 +121,6 @@ impl Spread {
     }
 }
 
-/// The finite numbers in increasing order.
-pub fn sorted(values: &[f64]) -> Vec<f64> {
-    let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    sorted
-}
-
 /// Quantile `p` of the numbers, by linear interpolation between them: x at place (n − 1)p, which is
 /// definition 7 of R. J. Hyndman, Y. Fan, "Sample quantiles in statistical packages", American Statistician 50 (1996),
 /// and what NumPy does. None without numbers.
@@ -138,18 +132,6 @@ pub fn quantile(values: &[f64], p: f64) -> Option<f64> {
 /// The median; none without numbers.
 pub fn median(values: &[f64]) -> Option<f64> {
     quantile(values, 0.5)
-}
-
-pub(crate) fn quantile_of_sorted(sorted: &[f64], p: f64) -> f64 {
-    let place = (sorted.len() - 1) as f64 * p.clamp(0.0, 1.0);
-    let below = place.floor() as usize;
-    let above = (below + 1).min(sorted.len() - 1);
-    let part = place - below as f64;
-    if part == 0.0 || sorted[below] == sorted[above] {
-        sorted[below]
-    } else {
-        sorted[below] * (1.0 - part) + sorted[above] * part
-    }
 }
 
 /// Spread of one channel at each output time. NaN where no member has a value.

@@ -16,7 +16,7 @@ fn each_kind_of_mistake_is_explained() {
   |      ^^^^
   = help: did you mean `end`?
   = in: time
-  = expected: `start`, `end` or `stop_at_rest`",
+  = expected: `start`, `end`, `stop_at_rest`, `max_evaluations` or `max_wall_time`",
         ),
         (
             "title = \"Sled, 30 km/h, lap belt\"",
