@@ -60,7 +60,10 @@ pub(crate) fn rate(
 
 fn of_values(rating: &'static Rating, file: String, places: &[String], values: &Values) -> Result<One, Failure> {
     if !places.is_empty() {
-        return Err(Failure::with_help("places without runs", "leave them out: values name their occupants themselves"));
+        return Err(Failure::with_help(
+            "places without runs",
+            "leave them out: values name their occupants themselves",
+        ));
     }
     let rated = rate_values(rating, values);
     if rated.tests.is_empty() {
