@@ -13,7 +13,7 @@ use crate::motion::vector::{V3, v3};
 use nalgebra::Vector3;
 
 /// Count of numbers in a reading.
-pub(crate) const READINGS: usize = TIBIAE + TIBIA_SITES * TIBIA_NUMBERS;
+pub(crate) const READINGS: usize = TIBIAE + TIBIA_SIGNALS;
 /// Index of the neck's force in a reading, followed by its moment.
 pub(crate) const NECK: usize = 15;
 /// Index of the femurs, right and left.
@@ -31,12 +31,13 @@ pub(crate) const REAR: usize = CHEST + CHEST_POINTS;
 pub(crate) const SIDE: usize = REAR + 3;
 /// Count of those values.
 pub(crate) const SIDE_SIGNALS: usize = 7;
-/// Index of the loads of the lower legs: force and moment at each site.
+/// Index of the loads of the lower legs: moments about X and Y and force along Z at the upper and the lower site of the right leg,
+/// then of the left one.
 pub(crate) const TIBIAE: usize = SIDE + SIDE_SIGNALS;
-/// Sites: the upper and the lower one of the right leg, then of the left one.
-pub(crate) const TIBIA_SITES: usize = 4;
-/// Count of numbers at a site.
-pub(crate) const TIBIA_NUMBERS: usize = 6;
+/// Count of those loads.
+pub(crate) const TIBIA_SIGNALS: usize = 4 * TIBIA_LOADS;
+/// Count of those at a site.
+const TIBIA_LOADS: usize = 3;
 /// Distance of a site from the joint next to it, as a share of the way from knee to ankle: our choice, because load cells of
 /// dummies have places of their own.
 const TIBIA_SHARE: f64 = 0.25;
@@ -307,7 +308,10 @@ impl<S: Scalar> Instruments<S> {
             // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
             reading[FEMURS + i] = -along.dot(k.axes[*thigh].z);
             if let Some(tibia) = tibia {
-                tibia.read(i, from, &mut reading);
+                for (site, [force, moment]) in tibia.loads(from).into_iter().enumerate() {
+                    let at = TIBIAE + TIBIA_LOADS * (2 * i + site);
+                    [reading[at], reading[at + 1], reading[at + 2]] = [moment.x, moment.y, force.z];
+                }
             }
         }
         reading
@@ -315,24 +319,39 @@ impl<S: Scalar> Instruments<S> {
 }
 
 impl Tibia {
-    /// Loads at the upper and the lower site: what the leg below it exerts on the leg above it, axes of the shank.
+    /// Force and moment at the upper and the lower site: what the leg below it exerts on the leg above it, in SAE J211 axes of
+    /// the shank.
     #[inline(always)]
-    fn read<S: Scalar>(&self, leg: usize, from: &Carried<'_, S>, reading: &mut Reading<S>) {
-        let (k, skeleton) = (from.k, from.skeleton);
+    fn loads<S: Scalar>(&self, from: &Carried<'_, S>) -> [[V3<S>; 2]; 2] {
+        let k = from.k;
         let [knee, ankle] = [k.joint[self.knee.segment], k.joint[self.ankle.segment]];
         let down = (ankle - knee) * S::of(TIBIA_SHARE);
+        [self.site(from, (&self.knee, knee, down), 1.0), self.site(from, (&self.ankle, ankle, -down), -1.0)]
+    }
+
+    /// The same at the site at the end of `way` from a joint at `end`.
+    #[inline(always)]
+    fn site<S: Scalar>(
+        &self,
+        from: &Carried<'_, S>,
+        (joint, end, way): (&Beyond, V3<S>, V3<S>),
+        sign: f64,
+    ) -> [V3<S>; 2] {
+        let (k, skeleton) = (from.k, from.skeleton);
+        let (force, moment) = joint.load(from);
+        // the piece of the shank between joint and site, with its share of a mass spread evenly along it
+        let middle = way * S::of(0.5);
         let up = v3(S::zero(), S::zero(), skeleton.gravity);
-        for (i, (joint, end, way)) in [(&self.knee, knee, down), (&self.ankle, ankle, -down)].into_iter().enumerate() {
-            let (force, moment) = joint.load(from);
-            // the piece of the shank between joint and site, with its share of a mass spread evenly along it
-            let middle = way * S::of(0.5);
-            let felt = from.accelerations.at(k, self.shank, end + middle - k.joint[self.shank]) + up;
-            let sign = if i == 0 { 1.0 } else { -1.0 };
-            let own = felt * (skeleton.links[self.shank].mass * S::of(sign * TIBIA_SHARE));
-            let at = TIBIAE + TIBIA_NUMBERS * (2 * leg + i);
-            put(reading, at, told(k, self.shank, own - force));
-            put(reading, at + 3, told(k, self.shank, way.cross(force) - moment - middle.cross(own)));
-        }
+        let felt = from.accelerations.at(k, self.shank, end + middle - k.joint[self.shank]) + up;
+        let own = felt * (skeleton.links[self.shank].mass * S::of(sign * TIBIA_SHARE));
+        [own - force, way.cross(force) - moment - middle.cross(own)].map(|load| told(k, self.shank, load))
+    }
+}
+
+impl Instruments<f64> {
+    /// Force and moment at the upper and the lower site of the right (0) or left (1) leg; none without a foot of its own.
+    pub(crate) fn tibia(&self, leg: usize, from: &Carried<'_, f64>) -> Option<[[V3<f64>; 2]; 2]> {
+        Some(self.legs[leg].as_ref()?.tibia.as_ref()?.loads(from))
     }
 }
 

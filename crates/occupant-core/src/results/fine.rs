@@ -5,7 +5,7 @@
 //! derivatives are made, have full precision.
 
 use crate::kernel::instruments::{
-    CHEST, CHEST_POINTS, PLACE, REAR, Reading, SIDE, SIDE_SIGNALS, TIBIA_NUMBERS, TIBIA_SITES, TIBIAE,
+    CHEST, CHEST_POINTS, PLACE, REAR, Reading, SIDE, SIDE_SIGNALS, TIBIA_SIGNALS, TIBIAE,
 };
 use crate::model::Model;
 use crate::model::behind::restraints;
@@ -17,15 +17,9 @@ use crate::results::sample::Sample;
 pub const READINGS_S: f64 = 1e-4;
 
 /// Count of numbers of one body in a sample: a reading without the head's position; then, if any body has a deformable
-/// chest, its deflections; if any has sides that yield, [`SIDE_SIGNALS`]; if any has feet of its own, [`LEG_SIGNALS`]; then, in a
+/// chest, its deflections; if any has sides that yield, [`SIDE_SIGNALS`]; if any has feet of its own, [`TIBIA_SIGNALS`]; then, in a
 /// rear impact, [`REAR_SIGNALS`].
 pub(crate) const SIGNALS: usize = PLACE;
-
-/// Signals of the lower legs: at each site those of [`LEG_LOADS`].
-pub(crate) const LEG_SIGNALS: usize = TIBIA_SITES * LEG_LOADS.len();
-
-/// Numbers of a site that are kept: moments about X and Y, force along Z.
-const LEG_LOADS: [usize; 3] = [3, 4, 2];
 
 /// Signals for rear impact: of T1, of the head restraint, of the head's speed and of the pelvis' position.
 pub(crate) const REAR_SIGNALS: usize = 4;
@@ -71,7 +65,7 @@ impl Fine {
         let chest = if model.body().chests.is_empty() { 0 } else { CHEST_POINTS };
         let side = if model.body().sides.is_empty() { 0 } else { SIDE_SIGNALS };
         let feet = model.body().tree.bodies().into_iter().flat_map(|row| row.landmarks.legs());
-        let legs = if feet.clone().any(|leg| leg.end.is_some()) { LEG_SIGNALS } else { 0 };
+        let legs = if feet.clone().any(|leg| leg.end.is_some()) { TIBIA_SIGNALS } else { 0 };
         let each = SIGNALS + chest + side + legs + rear;
         let count = each * bodies.len();
         let time = &model.setup().time;
@@ -118,11 +112,7 @@ impl Fine {
             own.copy_from_slice(&readings[of][..SIGNALS]);
             chest.copy_from_slice(&readings[of][CHEST..][..chest.len()]);
             side.copy_from_slice(&readings[of][SIDE..][..side.len()]);
-            for (site, loads) in legs.chunks_exact_mut(LEG_LOADS.len()).enumerate() {
-                for (load, number) in loads.iter_mut().zip(LEG_LOADS) {
-                    *load = readings[of][TIBIAE + TIBIA_NUMBERS * site + number];
-                }
-            }
+            legs.copy_from_slice(&readings[of][TIBIAE..][..legs.len()]);
             if let [t1, force, speed, place] = rear {
                 [*t1, *speed, *place] = [readings[of][REAR], readings[of][REAR + 1], readings[of][REAR + 2]];
                 *force = held.get(of).copied().unwrap_or(before[self.each - self.rear + 1]);

@@ -88,6 +88,16 @@ pub(crate) fn carried_by_mount(sample: &Sample<'_>) -> Option<Reaction> {
     loads.mount(|root| loads.carried.at(root, beyond(root)))
 }
 
+/// Force and moment at a site of the lower legs of the body of a sample, SAE J211 axes of the shank: the upper and the lower site
+/// of the right leg, then of the left one. NaN without a foot of its own.
+pub(crate) fn tibia_load(sample: &Sample<'_>, site: usize) -> [Vector3<f64>; 2] {
+    let system = sample.model.system();
+    let carried = Carried::of_evaluation(&system.skeleton, sample.evaluation);
+    let found = system.instruments.get(sample.of).and_then(|own| own.tibia(site / 2, &carried));
+    let none = Vector3::from_element(f64::NAN);
+    found.map_or([none; 2], |loads| loads[site % 2].map(|load| load.to_vector()))
+}
+
 /// Force and moment that all bodies exert on a vehicle with this `home` frame, in its axes, N and N·m about its origin: less
 /// what they get from elsewhere. Frames that `belongs` accepts are parts of the vehicle. Belts, bags and mounts of a body are
 /// those of its home.

@@ -8,7 +8,7 @@ use occupant_units::unit::Unit::{
 use crate::body::tree::{Landmarks, Segment};
 use crate::kernel::instruments;
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
-use crate::results::reaction::{Reaction, carried_by_mount, mount_load};
+use crate::results::reaction::{Reaction, carried_by_mount, mount_load, tibia_load};
 use crate::results::sample::Sample;
 
 /// A segment.
@@ -177,11 +177,11 @@ const fn tibia_moment(of: fn(&Sample<'_>) -> Vector3<f64>) -> Instrument {
 }
 
 fn tibia(s: &Sample<'_>, site: usize) -> Vector3<f64> {
-    read(s, instruments::TIBIAE + instruments::TIBIA_NUMBERS * site)
+    tibia_load(s, site)[0]
 }
 
 fn tibia_turn(s: &Sample<'_>, site: usize) -> Vector3<f64> {
-    read(s, instruments::TIBIAE + instruments::TIBIA_NUMBERS * site + 3)
+    tibia_load(s, site)[1]
 }
 
 const FEMUR: &str = "axial force at the knee end of the thigh, tension positive";

@@ -2,10 +2,10 @@
 
 use super::{Acceleration, Accelerations, Excursion, Level, Peak, Person};
 use crate::body::tree::BodyRow;
-use crate::kernel::instruments::SIDE_SIGNALS;
+use crate::kernel::instruments::{SIDE_SIGNALS, TIBIA_SIGNALS};
 use crate::model::Model;
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::results::fine::{Fine, LEG_SIGNALS, REAR_SIGNALS, SIGNALS};
+use crate::results::fine::{Fine, REAR_SIGNALS, SIGNALS};
 use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
 use crash_measures::injury::{self, ChestPoint, Options, Readings, Signals, Special, TibiaLoad, TibiaSite};
 use crash_measures::measure::{Peak as Extreme, ThreeMs};
@@ -157,11 +157,11 @@ const SIDE: [Special; SIDE_SIGNALS] = [
     Special::Pelvis(0),
     Special::Pubic,
 ];
-const LEGS: [Special; LEG_SIGNALS] = {
-    let mut all = [Special::T1; LEG_SIGNALS];
+const LEGS: [Special; TIBIA_SIGNALS] = {
+    let mut all = [Special::T1; TIBIA_SIGNALS];
     let loads = [TibiaLoad::MomentX, TibiaLoad::MomentY, TibiaLoad::ForceZ];
     let mut i = 0;
-    while i < LEG_SIGNALS {
+    while i < TIBIA_SIGNALS {
         all[i] = Special::Tibia(TibiaSite::ALL[i / loads.len()], loads[i % loads.len()]);
         i += 1;
     }
@@ -196,7 +196,7 @@ fn begun(model: &Model, fine: &Fine, row: &BodyRow) -> Signals {
         let is_dummy = sides.preset != "person";
         signals.sides = Some(if is_dummy { injury::Ribs::Dummy } else { injury::Ribs::Person { half_breadth_m } });
     }
-    for (leg, own) in [marks.legs.right, marks.legs.left].into_iter().zip(LEGS.chunks_exact(LEG_SIGNALS / 2)) {
+    for (leg, own) in [marks.legs.right, marks.legs.left].into_iter().zip(LEGS.chunks_exact(TIBIA_SIGNALS / 2)) {
         let has_foot = leg.is_some_and(|leg| leg.end.is_some());
         signals.special.extend(own.iter().filter(|_| has_foot).map(|which| (*which, Vec::with_capacity(room))));
     }
