@@ -308,7 +308,8 @@ impl<S: Scalar> Instruments<S> {
             // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
             reading[FEMURS + i] = -along.dot(k.axes[*thigh].z);
             if let Some(tibia) = tibia {
-                for (site, [force, moment]) in tibia.loads(from).into_iter().enumerate() {
+                let loads = tibia.loads(from);
+                for (site, [force, moment]) in loads.iter().enumerate() {
                     let at = TIBIAE + TIBIA_LOADS * (2 * i + site);
                     [reading[at], reading[at + 1], reading[at + 2]] = [moment.x, moment.y, force.z];
                 }
@@ -344,7 +345,8 @@ impl Tibia {
         let up = v3(S::zero(), S::zero(), skeleton.gravity);
         let felt = from.accelerations.at(k, self.shank, end + middle - k.joint[self.shank]) + up;
         let own = felt * (skeleton.links[self.shank].mass * S::of(sign * TIBIA_SHARE));
-        [own - force, way.cross(force) - moment - middle.cross(own)].map(|load| told(k, self.shank, load))
+        let turning = way.cross(force) - moment - middle.cross(own);
+        [told(k, self.shank, own - force), told(k, self.shank, turning)]
     }
 }
 
