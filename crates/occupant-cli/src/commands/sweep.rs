@@ -9,6 +9,7 @@ use clap::Subcommand;
 
 use super::flags::sweep as flags;
 use crate::base::{Done, Existing, Failure, UnitsArg, listen, print, program, progress, say};
+use occupant_files::table::Form;
 use occupant_jobs::files::scenario::warn;
 use occupant_jobs::files::study_folder::block::Block;
 use occupant_jobs::files::study_folder::folder::Folder;
@@ -123,6 +124,14 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
 
 /// Writes the samples without running any.
 fn design_only(args: &Args, study: &Path, file: &Path) -> Result<Done, Failure> {
+    let refused =
+        |found: &str, help: &str| Err(Failure::with_help(format!("--design-only {}: {found}", file.display()), help));
+    if Form::of(file).is_none() {
+        return refused("unknown file format", "use the extension .csv, .parquet, .xlsx or .mat");
+    }
+    if file.exists() && !args.restart {
+        return refused("the file exists", "replace it with --restart, or choose another name");
+    }
     let plan = Plan::open(study, &args.overrides, &Texts::of_files(study), program())?;
     if !args.quiet {
         warn(&plan.warnings);

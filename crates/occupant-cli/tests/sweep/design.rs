@@ -35,8 +35,10 @@ fn a_table_of_samples_is_replaced_only_when_asked_and_nothing_is_run() {
     let text = fs::read_to_string(at.join("samples.csv")).unwrap();
     assert!(text.starts_with("joints.neck.damping[N·m·s/rad],speed[m/s]\n") && text.lines().count() == 25, "{text}");
     assert!(!at.join("out").exists());
-    assert!(err(&answer(at, &words)).contains("samples.csv"));
+    let said = err(&answer(at, &words));
+    assert!(said.contains("--design-only samples.csv: the file exists") && said.contains("--restart"), "{said}");
     done(at, &[&words[..], &["--restart"]].concat());
     let other = ["sweep", "study.toml", "--design-only", "samples.txt"];
-    assert!(err(&answer(at, &other)).contains(".csv, .parquet"));
+    let said = err(&answer(at, &other));
+    assert!(said.contains("--design-only samples.txt: unknown") && said.contains(".csv, .parquet"), "{said}");
 }

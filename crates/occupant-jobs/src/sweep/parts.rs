@@ -20,20 +20,9 @@ pub fn write(
     block: &Block,
     runs: BTreeMap<String, String>,
 ) -> Result<(), Failure> {
-    let is_there = journal.only_part().is_some_and(|part| part.about.runs == runs);
-    if !is_there {
-        write_anew(folder, journal, manifest, block, runs)?;
+    if journal.only_part().is_some_and(|part| part.about.runs == runs) {
+        return Ok(folder.clear_block(block)?);
     }
-    Ok(folder.clear_block(block)?)
-}
-
-fn write_anew(
-    folder: &Folder,
-    journal: &Journal,
-    manifest: &Manifest,
-    block: &Block,
-    runs: BTreeMap<String, String>,
-) -> Result<(), Failure> {
     let (beside, path) = (folder.beside_journal(block, "parquet"), folder.part(block));
     let mut table = StudyTable::create([(beside.clone(), Form::Parquet)], Existing::Replace, manifest)?;
     let mut about = About::new(manifest, &block.samples);
@@ -45,7 +34,7 @@ fn write_anew(
     table.publish_part(&about)?;
     rename(&beside, &path)?;
     sync_folder(&path);
-    Ok(())
+    Ok(folder.clear_block(block)?)
 }
 
 /// Gives a complete part its name. Of two processes without locks the later wins, with the same rows.
