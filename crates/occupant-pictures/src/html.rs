@@ -40,8 +40,8 @@ pub enum Cell {
     Number(String),
     /// A number with a mark, and its reason.
     Marked(String, String),
-    /// A number on a shade from 1 to 5.
-    Shaded(String, usize),
+    /// A number, with the reason of its mark if it has one, on a shade from 1 to 5.
+    Shaded(String, Option<String>, usize),
 }
 
 impl Html {
@@ -104,17 +104,20 @@ impl Html {
     }
 }
 
+fn marked(text: &str, why: &str, classes: &str) -> String {
+    format!("<td class=\"number marked{classes}\" title=\"{}\">{}\u{a0}†</td>", escape(why), escape(text))
+}
+
 impl Cell {
     fn html(&self) -> String {
         match self {
             Cell::Words(text) => format!("<td>{}</td>", escape(text)),
             Cell::Number(text) => format!("<td class=\"number\">{}</td>", escape(text)),
-            Cell::Shaded(text, shade) => {
+            Cell::Shaded(text, None, shade) => {
                 format!("<td class=\"number shade-{shade}\">{}</td>", escape(text))
             }
-            Cell::Marked(text, why) => {
-                format!("<td class=\"number marked\" title=\"{}\">{}\u{a0}†</td>", escape(why), escape(text))
-            }
+            Cell::Shaded(text, Some(why), shade) => marked(text, why, &format!(" shade-{shade}")),
+            Cell::Marked(text, why) => marked(text, why, ""),
         }
     }
 

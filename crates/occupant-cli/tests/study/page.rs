@@ -319,7 +319,7 @@ fn a_plot_of_effects_has_all_parameters_inside_its_frame() {
     assert_eq!((dots.len(), inside), (62, 60), "μ* and σ of each, and the two of the legend below: {ends:?} {dots:?}");
 }
 
-/// The table of what matters: the most important parameter first, on the darkest shade, none for a mark.
+/// The table of what matters: the most important parameter first, on the darkest shade.
 #[test]
 fn the_matrix_is_sorted_and_shaded_and_pairs_have_their_table() {
     let [head, damping, speed] = STUDY.split("[[parameters]]").collect::<Vec<_>>()[..] else { panic!("{STUDY}") };

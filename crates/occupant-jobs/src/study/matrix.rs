@@ -25,6 +25,8 @@ fn telling(of: &Finding<'_>) -> (&'static str, &'static str) {
 /// Influence of a parameter on a measure.
 struct Influence {
     value: f64,
+    /// Its size as far as the interval tells: the distance of that from zero; without an interval that of a reliable value.
+    known: f64,
     text: String,
     /// Reason why it is unreliable.
     mark: Option<String>,
@@ -39,16 +41,20 @@ impl Influence {
         };
         let value = number.estimate.value - least;
         let text = if number.in_unit { shown(value, &of.response.unit) } else { part(value) };
-        value.is_finite().then(|| Influence { value, text, mark: number.mark.clone() })
+        let mark = number.mark.clone();
+        let [low, high] = [number.estimate.low, number.estimate.high].map(|end| end - least);
+        let known = match low <= high {
+            true => low.max(-high).clamp(0.0, value.abs()),
+            false if mark.is_none() => value.abs(),
+            false => 0.0,
+        };
+        value.is_finite().then_some(Influence { value, known, text, mark })
     }
 
-    /// Its cell on a shade: by its size, of which the largest of the measure is `most`.
+    /// Its cell on a shade: by what is known of its size, of which the largest of the measure is `most`.
     fn cell(self, most: f64) -> Cell {
-        let shade = (SHADES * self.value.abs() / most).ceil();
-        match (self.mark, shade >= 1.0) {
-            (None, true) => Cell::Shaded(self.text, shade as usize),
-            (mark, _) => Cell::of(self.text, mark),
-        }
+        let shade = (SHADES * self.known / most).round().min(SHADES);
+        if shade >= 1.0 { Cell::Shaded(self.text, self.mark, shade as usize) } else { Cell::of(self.text, self.mark) }
     }
 }
 
@@ -59,16 +65,16 @@ fn most(of: &Finding<'_>) -> f64 {
     if is_of_unit { all().map(|one| one.value.abs()).fold(0.0, f64::max) } else { 1.0 }
 }
 
-/// Parameters by their largest influence on any measure, the most important first. Unreliable ones decide among those that have
-/// no other.
+/// Parameters by what is known of their largest influence on any measure, the most important first; by their largest number where
+/// nothing is known.
 fn sorted(told: &[(Finding<'_>, String)], parameters: usize) -> Vec<usize> {
     let most: Vec<f64> = told.iter().map(|(of, _)| most(of)).collect();
-    let largest = |i: usize, is_marked: bool| {
-        let found = told.iter().zip(&most).filter_map(|((of, _), most)| Some((Influence::of(of, i)?, most)));
-        let shares = found.filter(|(one, _)| one.mark.is_some() == is_marked).map(|(one, most)| one.value.abs() / most);
+    let largest = |i: usize, size: fn(&Influence) -> f64| {
+        let shares = told.iter().zip(&most).filter_map(|((of, _), most)| Some(size(&Influence::of(of, i)?) / most));
         shares.filter(|share| share.is_finite()).fold(-1.0, f64::max)
     };
-    let weights: Vec<[f64; 2]> = (0..parameters).map(|i| [false, true].map(|marked| largest(i, marked))).collect();
+    let weight = |i: usize| [largest(i, |one| one.known), largest(i, |one| one.value.abs())];
+    let weights: Vec<[f64; 2]> = (0..parameters).map(weight).collect();
     let mut order: Vec<usize> = (0..parameters).collect();
     let by = |a: usize, b: usize, at: usize| weights[b][at].total_cmp(&weights[a][at]);
     order.sort_by(|a, b| by(*a, *b, 0).then(by(*a, *b, 1)));
@@ -95,7 +101,7 @@ pub(super) fn section(html: &mut Html, report: &Report) {
     }
     html.text("h2", "What matters for which result");
     let words = "Click a measure for its details. † marks unreliable numbers; hover over one for the reason.";
-    let order = "The parameter with the largest influence on any result comes first; shades grow with the influence.";
+    let order = "The parameter with the largest influence on any result comes first, and shades grow with the influence, both as far as the interval tells: by its end nearest zero.";
     html.text("p class=\"remark\"", &format!("Rows of parameters show {}. {order} {words}", telling(first).1));
     let link = |(of, _): &(Finding<'_>, String)| {
         // the rows of the spread have the unit, whatever those of the parameters are
