@@ -4,7 +4,8 @@
 //! read; whether durations count contiguously or in total is not known here, so they count in total,
 //! which is never the milder reading.
 
-use super::{peak::maximum, three_ms::clip_cumulative};
+use super::peak::maximum;
+use super::three_ms::{Counting, Heights};
 use crate::signal::SignalError;
 
 /// A limit that falls linearly with duration and then stays.
@@ -54,6 +55,7 @@ pub fn duration_use(load: &[f64], dt_s: f64, limit: &DurationLimit) -> Result<Du
     // a longer time is held by a lower level, so that the last level found bounds what is to come
     let mut highest = peak;
     let record_s = load.len().saturating_sub(1) as f64 * dt_s;
+    let mut heights = None;
     for k in 1..=DIVISIONS {
         let duration_s = limit.settled_s * f64::from(k) / f64::from(DIVISIONS);
         if duration_s > record_s {
@@ -62,7 +64,11 @@ pub fn duration_use(load: &[f64], dt_s: f64, limit: &DurationLimit) -> Result<Du
         if highest / limit.at(duration_s) <= worst.ratio {
             continue;
         }
-        let level = clip_cumulative(load, dt_s, duration_s)?.level_mps2;
+        let heights = match &mut heights {
+            Some(heights) => heights,
+            none => none.insert(Heights::new(load, dt_s, limit.settled_s.min(record_s))?),
+        };
+        let level = heights.held(duration_s, Counting::Cumulative)?.level_mps2;
         highest = level;
         let ratio = level / limit.at(duration_s);
         if ratio > worst.ratio {

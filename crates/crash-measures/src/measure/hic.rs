@@ -12,8 +12,9 @@
 //! window either has the length W and a(t₁) = a(t₂), or it starts where the line rises through
 //! h = 0.6·I/τ, or with the record above it, and ends where the line falls through h, or with the
 //! record. On two straight flanks h follows from a quadratic equation. Most pairs of flanks need no
-//! look: a window beats the best so far only if I exceeds best^0.4·τ^0.6, and one sample more adds at
-//! most a_max·dt to I, so the shortfall says how many samples can be skipped.
+//! look: a window beats the best so far only if I exceeds best^0.4·τ^0.6. Where no sample is negative,
+//! I only grows, so that the next sample with enough of it is found by bisection; else one sample more
+//! adds at most a_max·dt, so the shortfall says how many can be skipped.
 
 use crate::signal::{CumulativeIntegral, STANDARD_GRAVITY_MPS2, SignalError, require_positive, whole_steps};
 
@@ -84,11 +85,15 @@ struct Search<'a> {
     dt_s: f64,
     limit_s: f64,
     peak: f64,
+    /// Whether no sample is negative: a longer window then gains more.
+    only_grows: bool,
     /// τ^0.6 by lag in samples.
     tau_06: Vec<f64>,
     best: Hic,
     /// I·τ^−0.6 of the best window.
     best_04: f64,
+    /// What a window must gain at least to be better: I·τ^−0.6 > best^0.4 and I ≤ a_max·τ.
+    least_mps: f64,
 }
 
 /// A rising or falling interval of the line as functions of its level h: t = time + slowness·h, ∫ a dt = integral +
@@ -114,6 +119,8 @@ impl<'a> Search<'a> {
             tau_06: (0..=longest).map(|lag| libm::pow(lag as f64 * dt_s, 0.6)).collect(),
             best: Hic { value: 0.0, start_s: 0.0, end_s: 0.0 },
             best_04: 0.0,
+            least_mps: 0.0,
+            only_grows: a.iter().all(|a| *a >= 0.0),
         }
     }
 
@@ -123,7 +130,11 @@ impl<'a> Search<'a> {
             // a coarse pass first: a good best lets the full pass skip most windows
             let coarse = (self.tau_06.len() / 16).max(1);
             for stride in [coarse, 1] {
-                (0..self.a.len()).step_by(stride).for_each(|start| self.try_start(start, stride));
+                for start in (0..self.a.len()).step_by(stride) {
+                    if self.may_win(start) {
+                        self.try_start(start, stride);
+                    }
+                }
             }
         }
         self.best
@@ -135,14 +146,17 @@ impl<'a> Search<'a> {
         if tried.value > self.best.value {
             self.best = tried;
             self.best_04 = libm::pow(tried.value, 0.4) * STANDARD_GRAVITY_MPS2;
+            let ratio = self.best_04 / self.peak;
+            self.least_mps = self.best_04 * ratio * ratio.sqrt() * (1.0 - 1e-9);
         }
     }
 
-    /// The windows of the largest length. While neither end passes a sample the integral over them is a parabola in time.
+    /// The windows of the largest length. While neither end passes a sample the integral over them is a parabola in time,
+    /// and the largest is where its growth changes sign, or first or last.
     fn try_longest(&mut self) {
         let last_s = self.integral.duration_s() - self.limit_s;
-        let samples_s = (0..self.a.len()).map(|i| i as f64 * self.dt_s);
-        let starts_s = samples_s.flat_map(|t_s| [t_s, t_s - self.limit_s]).chain([last_s]);
+        let samples_s = || (0..self.a.len()).map(|i| i as f64 * self.dt_s);
+        let starts_s = samples_s().chain(samples_s().map(|t_s| t_s - self.limit_s)).chain([last_s]);
         let mut starts_s: Vec<f64> = starts_s.filter(|t_s| (0.0..=last_s).contains(t_s)).collect();
         starts_s.sort_by(f64::total_cmp);
         let (mut before_s, mut growth_before) = (0.0, 0.0);
@@ -151,10 +165,21 @@ impl<'a> Search<'a> {
             if growth_before > 0.0 && growth < 0.0 {
                 let crest_s = before_s + (start_s - before_s) * growth_before / (growth_before - growth);
                 self.offer(crest_s, crest_s + self.limit_s);
+                self.offer(before_s, before_s + self.limit_s);
             }
-            self.offer(start_s, start_s + self.limit_s);
+            if growth_before * growth <= 0.0 {
+                self.offer(start_s, start_s + self.limit_s);
+            }
             (before_s, growth_before) = (start_s, growth);
         }
+        self.offer(last_s, last_s + self.limit_s);
+    }
+
+    /// Whether any window from sample `start`, or on its flanks, can be better than the best.
+    fn may_win(&self, start: usize) -> bool {
+        let end = (start + self.tau_06.len()).min(self.a.len() - 1);
+        let gain = self.integral.at_samples()[end] - self.integral.at_samples()[start];
+        !self.only_grows || gain + 2.0 * self.peak * self.dt_s >= self.least_mps
     }
 
     /// Tries windows from sample `start` to samples `stride` apart, and those whose ends are on the flanks before and
@@ -177,8 +202,20 @@ impl<'a> Search<'a> {
             {
                 self.try_flanks(rise, fall);
             }
-            lag = lag.saturating_add(((shortfall / one_interval) as usize).max(stride));
+            lag = self.next_lag(start, lag, shortfall).max(lag + stride);
         }
+    }
+
+    /// The next lag of a window that can win, where that of `lag` falls short by so much.
+    fn next_lag(&self, start: usize, lag: usize, shortfall: f64) -> usize {
+        let one_interval = self.peak * self.dt_s;
+        if !self.only_grows {
+            return lag.saturating_add((shortfall / one_interval) as usize);
+        }
+        // a longer window must gain more
+        let sums = &self.integral.at_samples()[start..];
+        let needed = self.best_04 * self.tau_06[lag] - 2.0 * one_interval;
+        lag + sums[lag..].partition_point(|sum| sum - sums[0] < needed)
     }
 
     /// The flank from sample `top` down to its neighbour, or the end of the record; none if it does not fall, or is too

@@ -7,9 +7,10 @@
 //!
 //! On the straight line through the samples the time above L changes linearly with L between two
 //! neighbouring sample values. So: bisect on the sorted sample values for the pair that brackets the
-//! answer, then solve the linear equation there. No iteration tolerance.
+//! answer, then solve the linear equation there. No iteration tolerance. Only the high part of the
+//! signal is sorted: from a level on that is held for long enough.
 
-use crate::signal::{SignalError, require_positive, require_samples};
+use crate::signal::{SignalError, require_positive, require_samples, whole_steps};
 
 /// A level exceeded for a given time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,8 +57,10 @@ pub fn clip_cumulative(values: &[f64], dt_s: f64, duration_s: f64) -> Result<Thr
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Counting {
+pub(super) enum Counting {
+    /// In one interval.
     Contiguous,
+    /// In all together.
     Cumulative,
 }
 
@@ -72,89 +75,137 @@ struct Above {
 }
 
 fn clip(values: &[f64], dt_s: f64, duration_s: f64, counting: Counting) -> Result<ThreeMs, SignalError> {
-    require_positive("duration (s)", duration_s)?;
-    require_samples("signal to clip", values, dt_s, 2)?;
-    let found_s = (values.len() - 1) as f64 * dt_s;
-    // exact multiples of the interval must not fail by rounding
-    let needed_s = duration_s * (1.0 - 1e-9);
-    if found_s < needed_s {
-        return Err(SignalError::TooBrief { what: "signal to clip", found_s, needed_s: duration_s });
-    }
-    let mut levels = values.to_vec();
-    levels.sort_by(f64::total_cmp);
-    levels.dedup();
-    // the lowest level holds throughout; find the first sample value that does not hold long enough
-    let failing = levels.partition_point(|&level| longest(values, dt_s, level, counting).time_s >= needed_s);
-    let lower = levels[failing.saturating_sub(1)];
-    let level = match levels.get(failing) {
-        Some(&upper) => solve_between(values, dt_s, needed_s, lower, upper, counting),
-        None => lower,
-    };
-    let interval = longest(values, dt_s, level, counting);
-    Ok(ThreeMs { level_mps2: level, start_s: interval.start_s, end_s: interval.end_s })
+    Heights::new(values, dt_s, duration_s)?.held(duration_s, counting)
 }
 
-/// Highest level in [lower, upper) held for `needed_s`, with no sample between the two.
-fn solve_between(values: &[f64], dt_s: f64, needed_s: f64, lower: f64, upper: f64, counting: Counting) -> f64 {
-    let middle = 0.5 * (lower + upper);
-    let mut level = lower;
-    intervals_above(values, dt_s, middle, counting, |above| {
-        if above.loss_s > 0.0 {
-            // time(L) = time(middle) − loss·(L − middle) = needed
-            level = level.max(middle + (above.time_s - needed_s) / above.loss_s);
-        }
-    });
-    level.min(upper)
+/// The high part of a signal, in which levels held for some time are searched.
+pub(super) struct Heights {
+    dt_s: f64,
+    /// Time of the last sample, s.
+    last_s: f64,
+    /// The first sample.
+    first: f64,
+    /// Neighbours of which at least one is as high as the lowest of `levels`: index of the first, and both.
+    flanks: Vec<(usize, f64, f64)>,
+    /// Values from one that is held for long enough, ascending.
+    levels: Vec<f64>,
 }
 
-/// The longest interval at or above `level` (the total, where cumulative).
-fn longest(values: &[f64], dt_s: f64, level: f64, counting: Counting) -> Above {
-    let mut longest = Above { start_s: 0.0, end_s: 0.0, time_s: -1.0, loss_s: 0.0 };
-    intervals_above(values, dt_s, level, counting, |above| {
-        if above.time_s > longest.time_s {
-            longest = above;
+impl Heights {
+    /// The part in which levels held for up to `longest_s` are.
+    pub(super) fn new(values: &[f64], dt_s: f64, longest_s: f64) -> Result<Self, SignalError> {
+        require_positive("duration (s)", longest_s)?;
+        require_samples("signal to clip", values, dt_s, 2)?;
+        let last_s = (values.len() - 1) as f64 * dt_s;
+        // so many samples of a single pulse take the time twice
+        let mut count = 2 * whole_steps(longest_s, dt_s).min(values.len()) + 8;
+        let mut sorted = values.to_vec();
+        loop {
+            let lowest = nth_largest(&mut sorted, count);
+            let pairs = values.windows(2).enumerate().map(|(i, pair)| (i, pair[0], pair[1]));
+            let mut all = Heights {
+                dt_s,
+                last_s,
+                first: values[0],
+                flanks: pairs.filter(|(_, a, b)| *a >= lowest || *b >= lowest).collect(),
+                levels: Vec::new(),
+            };
+            if count >= values.len() || all.longest(lowest, Counting::Contiguous).time_s >= longest_s {
+                all.levels = values.iter().copied().filter(|value| *value >= lowest).collect();
+                all.levels.sort_by(f64::total_cmp);
+                all.levels.dedup();
+                return Ok(all);
+            }
+            count = count.saturating_mul(4);
         }
-    });
-    longest
+    }
+
+    /// Highest level held for `duration_s`, at most that of [`Heights::new`].
+    pub(super) fn held(&self, duration_s: f64, counting: Counting) -> Result<ThreeMs, SignalError> {
+        // exact multiples of the interval must not fail by rounding
+        let needed_s = duration_s * (1.0 - 1e-9);
+        if self.last_s < needed_s {
+            let found_s = self.last_s;
+            return Err(SignalError::TooBrief { what: "signal to clip", found_s, needed_s: duration_s });
+        }
+        // the lowest level holds for long enough; find the first that does not
+        let holds = |level: &f64| self.longest(*level, counting).time_s >= needed_s;
+        let failing = self.levels.partition_point(holds);
+        let lower = self.levels[failing.saturating_sub(1)];
+        let level = match self.levels.get(failing) {
+            Some(&upper) => self.solve_between(needed_s, lower, upper, counting),
+            None => lower,
+        };
+        let interval = self.longest(level, counting);
+        Ok(ThreeMs { level_mps2: level, start_s: interval.start_s, end_s: interval.end_s })
+    }
+
+    /// Highest level in [lower, upper) held for `needed_s`, with no sample between the two.
+    fn solve_between(&self, needed_s: f64, lower: f64, upper: f64, counting: Counting) -> f64 {
+        let middle = 0.5 * (lower + upper);
+        let mut level = lower;
+        self.intervals_above(middle, counting, |above| {
+            if above.loss_s > 0.0 {
+                // time(L) = time(middle) − loss·(L − middle) = needed
+                level = level.max(middle + (above.time_s - needed_s) / above.loss_s);
+            }
+        });
+        level.min(upper)
+    }
+
+    /// The longest interval at or above `level` (the total, where cumulative).
+    fn longest(&self, level: f64, counting: Counting) -> Above {
+        let mut longest = Above { start_s: 0.0, end_s: 0.0, time_s: -1.0, loss_s: 0.0 };
+        self.intervals_above(level, counting, |above| {
+            if above.time_s > longest.time_s {
+                longest = above;
+            }
+        });
+        longest
+    }
+
+    /// Calls `each` with every interval at or above `level`, or once with their sum where cumulative.
+    fn intervals_above(&self, level: f64, counting: Counting, mut each: impl FnMut(Above)) {
+        let mut total: Option<Above> = None;
+        let mut close = |above: Above| match (counting, &mut total) {
+            (Counting::Contiguous, _) => each(above),
+            (Counting::Cumulative, None) => total = Some(above),
+            (Counting::Cumulative, Some(sum)) => {
+                sum.end_s = above.end_s;
+                sum.time_s += above.time_s;
+                sum.loss_s += above.loss_s;
+            }
+        };
+        let mut open = (self.first >= level).then_some((0.0, 0.0));
+        for &(i, a, b) in &self.flanks {
+            if (a >= level) == (b >= level) {
+                continue;
+            }
+            let crossing_s = self.dt_s * (i as f64 + (level - a) / (b - a));
+            let loss_s = self.dt_s / (b - a).abs();
+            match open.take() {
+                None => open = Some((crossing_s, loss_s)),
+                Some((start_s, loss_at_start_s)) => close(Above {
+                    start_s,
+                    end_s: crossing_s,
+                    time_s: crossing_s - start_s,
+                    loss_s: loss_at_start_s + loss_s,
+                }),
+            }
+        }
+        if let Some((start_s, loss_s)) = open {
+            close(Above { start_s, end_s: self.last_s, time_s: self.last_s - start_s, loss_s });
+        }
+        if let Some(sum) = total {
+            each(sum);
+        }
+    }
 }
 
-/// Calls `each` with every interval at or above `level`, or once with their sum where cumulative.
-fn intervals_above(values: &[f64], dt_s: f64, level: f64, counting: Counting, mut each: impl FnMut(Above)) {
-    let mut total: Option<Above> = None;
-    let mut close = |above: Above| match (counting, &mut total) {
-        (Counting::Contiguous, _) => each(above),
-        (Counting::Cumulative, None) => total = Some(above),
-        (Counting::Cumulative, Some(sum)) => {
-            sum.end_s = above.end_s;
-            sum.time_s += above.time_s;
-            sum.loss_s += above.loss_s;
-        }
-    };
-    let mut open = (values[0] >= level).then_some((0.0, 0.0));
-    for (i, pair) in values.windows(2).enumerate() {
-        let (a, b) = (pair[0], pair[1]);
-        if (a >= level) == (b >= level) {
-            continue;
-        }
-        let crossing_s = dt_s * (i as f64 + (level - a) / (b - a));
-        let loss_s = dt_s / (b - a).abs();
-        match open.take() {
-            None => open = Some((crossing_s, loss_s)),
-            Some((start_s, loss_at_start_s)) => close(Above {
-                start_s,
-                end_s: crossing_s,
-                time_s: crossing_s - start_s,
-                loss_s: loss_at_start_s + loss_s,
-            }),
-        }
-    }
-    if let Some((start_s, loss_s)) = open {
-        let end_s = (values.len() - 1) as f64 * dt_s;
-        close(Above { start_s, end_s, time_s: end_s - start_s, loss_s });
-    }
-    if let Some(sum) = total {
-        each(sum);
-    }
+/// The value with so many at least as large, counted with it; the smallest if there are fewer. Reorders.
+fn nth_largest(values: &mut [f64], count: usize) -> f64 {
+    let from = values.len().saturating_sub(count);
+    *values.select_nth_unstable_by(from, f64::total_cmp).1
 }
 
 #[cfg(test)]
@@ -225,18 +276,41 @@ mod tests {
         assert_eq!(three_ms_cumulative(&constant, 1e-3).unwrap().level_mps2, 4.0);
     }
 
+    /// Time at or above a level, by its definition: of the longest interval, or of all.
+    fn above(values: &[f64], dt_s: f64, level: f64, counting: Counting) -> f64 {
+        let (mut sum_s, mut most_s) = (0.0, 0.0_f64);
+        for pair in values.windows(2) {
+            let (low, high) = (pair[0].min(pair[1]), pair[0].max(pair[1]));
+            if counting == Counting::Contiguous && pair[0] < level {
+                sum_s = 0.0;
+            }
+            sum_s += match () {
+                () if low >= level => dt_s,
+                () if high >= level => dt_s * (high - level) / (high - low),
+                () => 0.0,
+            };
+            most_s = most_s.max(sum_s);
+        }
+        most_s
+    }
+
     #[test]
     fn agrees_with_a_bisection_on_the_level() {
-        let signal: Vec<f64> =
-            (0..2500).map(|i| 40.0 + 30.0 * (i as f64 * 0.013).sin() + 20.0 * (i as f64 * 0.171).cos()).collect();
-        for counting in [Counting::Contiguous, Counting::Cumulative] {
-            let (mut low, mut high) = (-20.0, 100.0);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if longest(&signal, 1e-4, middle, counting).time_s >= 0.003 { low = middle } else { high = middle }
+        let times = || (0..2500).map(f64::from);
+        let smooth = times().map(|i| 40.0 + 30.0 * (i * 0.013).sin() + 20.0 * (i * 0.171).cos());
+        // held for 3 ms only far below its peaks
+        let comb = times().map(|i| if i % 2.0 == 0.0 { 90.0 + (i * 0.37).sin() } else { -5.0 + (i * 0.11).cos() });
+        let spikes = times().map(|i| if i % 37.0 == 3.0 { 60.0 + (i * 0.37).sin() } else { (i * 0.05).sin() });
+        for signal in [smooth.collect::<Vec<_>>(), comb.collect(), spikes.collect()] {
+            for counting in [Counting::Contiguous, Counting::Cumulative] {
+                let (mut low, mut high) = (-20.0, 100.0);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    if above(&signal, 1e-4, middle, counting) >= 0.003 { low = middle } else { high = middle }
+                }
+                let found = clip(&signal, 1e-4, 0.003, counting).unwrap().level_mps2;
+                assert!((found - low).abs() < 1e-6, "{found} {low}");
             }
-            let found = clip(&signal, 1e-4, 0.003, counting).unwrap().level_mps2;
-            assert!((found - low).abs() < 1e-6, "{found} {low}");
         }
     }
 
