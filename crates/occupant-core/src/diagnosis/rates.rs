@@ -64,7 +64,7 @@ impl FrictionMasses {
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     let contacts = &model.system().forces.contacts;
     let faces = contacts.groups.iter().flat_map(move |group| {
-        let parts = contacts.pairs[group.pairs.clone()].iter().flat_map(|p| &p.parts);
+        let parts = group.pairs.clone().flat_map(|i| &contacts.pairs[i].parts);
         parts.map(move |part| (group.sphere, part.surface))
     });
     let solids = contacts.solids.met().map(|(group, member)| (group.sphere, member.surface));

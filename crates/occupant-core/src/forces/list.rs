@@ -573,14 +573,19 @@ impl<S: Scalar> History<S> {
 
 #[cfg(any(target_arch = "x86_64", test))]
 impl History<f64> {
-    /// Stores `memory`, of a later position. Elements far from contact stay skipped where no contact has begun or ended
-    /// meanwhile.
+    /// Stores `memory`, of a later position. Pairs far from contact stay skipped in groups in which no contact has begun or
+    /// ended meanwhile.
     pub(crate) fn remember(&mut self, memory: &Memory<f64>) {
-        let contacts = self.memory.contacts.iter().zip(&memory.contacts);
-        let is_like = contacts.clone().all(|(own, other)| own.phase == other.phase);
+        self.look_again_where(|pair| memory.contacts[pair].phase);
         self.memory.take_over(memory);
-        if !is_like {
-            self.look_again();
+    }
+
+    /// Makes the next commit visit the groups of pairs whose phase is another at a later position.
+    pub(crate) fn look_again_where(&mut self, phase: impl Fn(usize) -> f64) {
+        for (pair, own) in self.memory.contacts.iter().enumerate() {
+            if own.phase != phase(pair) {
+                self.hints.contacts.look_again_at(pair);
+            }
         }
     }
 }

@@ -4,6 +4,8 @@
 //! between. Values at steps have the precision of an `f32`, in a run as in its file; values at outputs, from which
 //! derivatives are made, have full precision.
 
+use std::ops::Range;
+
 use crate::kernel::instruments::{
     CHEST, CHEST_POINTS, PLACE, REAR, Reading, SIDE, SIDE_SIGNALS, TIBIA_SIGNALS, TIBIAE,
 };
@@ -178,19 +180,26 @@ impl Fine {
         self.see(sample.time_s, sample.readings, &held);
     }
 
-    /// Part of a body's sample for rear impact.
-    pub(crate) fn rear_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
-        &sample[self.each - self.rear..]
+    /// Places of the numbers for rear impact in a body's sample.
+    pub(crate) fn rear_part(&self) -> Range<usize> {
+        self.each - self.rear..self.each
     }
 
-    /// Part of a body's sample for side impact.
-    pub(crate) fn side_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
-        &sample[..self.each - self.rear - self.legs][self.each - self.rear - self.legs - self.side..]
+    /// Places of the loads of the lower legs.
+    pub(crate) fn legs_part(&self) -> Range<usize> {
+        let rear = self.rear_part();
+        rear.start - self.legs..rear.start
     }
 
-    /// Part of a body's sample with the loads of the lower legs.
-    pub(crate) fn legs_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
-        &sample[self.each - self.rear - self.legs..self.each - self.rear]
+    /// Places of those for side impact.
+    pub(crate) fn side_part(&self) -> Range<usize> {
+        let legs = self.legs_part();
+        legs.start - self.side..legs.start
+    }
+
+    /// Places of the deflections of the chest.
+    pub(crate) fn chest_part(&self) -> Range<usize> {
+        SIGNALS..self.side_part().start
     }
 
     /// Index and readings of the samples since the last output, of a body among those read.

@@ -8,6 +8,7 @@ use crate::forces::contact::face::{Outline, V2};
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::{Material, Memory};
 use crate::forces::contact::self_contact::SelfPairs;
+use crate::forces::contact::shared::Numbers;
 use crate::forces::contact::solid::Solids;
 use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
 use crate::forces::contact::{ContactSystem, Group, MaterialLaw, Pair, Part, Plane};
@@ -35,6 +36,7 @@ impl ContactSystem<f64> {
         let frames = frames(surfaces.iter().map(|s| s.frame), &system.carriers);
         let seams = seams(faces);
         let flats: Vec<Flat> = faces.iter().map(Flat::new).collect();
+        let mut numbers = Numbers::new();
         for (sphere, data) in body.spheres.iter().enumerate() {
             for &(frame, index) in &frames {
                 if is_own(body, data, frame) {
@@ -49,7 +51,8 @@ impl ContactSystem<f64> {
                     };
                     for parts in joined(reaches, surfaces.len(), &seams) {
                         system.planes.push(plane(&faces[parts[0]], data.radius_m));
-                        system.pairs.push(pair(&parts, surfaces, &flats, materials, data.share));
+                        let make = || pair(&parts, surfaces, &flats, materials, data.share);
+                        system.pairs.push(numbers.of((data.share.to_bits(), parts.clone())), make);
                     }
                     let pairs = first..system.pairs.len();
                     if !pairs.is_empty() {

@@ -228,7 +228,7 @@ pub(super) fn beneath(
         if !matches!(face.outline, Outline::Unbounded { .. }) {
             continue;
         }
-        let met = |group: &&Group| law.pairs[group.pairs.clone()].iter().any(|pair| pair.parts[0].surface == surface);
+        let met = |group: &&Group| group.pairs.clone().any(|i| law.pairs[i].parts[0].surface == surface);
         let behind = |group: &Group| {
             let centre = at.centre_in(group.sphere, group.by, group.frame).to_vector();
             (face.offset_m - face.normal.dot(&centre), group.sphere)

@@ -124,7 +124,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     ) -> S {
         let (contacts, radius) = (self.contacts, self.site.radius);
         let j = i - contacts.pairs.len();
-        let union = &contacts.solids.pairs[j];
+        let union = &contacts.solids.laws[j];
         let nearest = contacts.solids.nearest(j, self.centre_f, radius, past, self.accepted);
         if self.accepted {
             union.commit(nearest.depth, &mut past[i]);

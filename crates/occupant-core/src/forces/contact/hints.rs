@@ -137,6 +137,16 @@ impl<S: Scalar> ContactHints<S> {
         near.iter().any(|near| near.pair as usize == i) || S::any(self.looks[g].reach_squared.lt(S::zero()))
     }
 
+    /// Makes the next commit look at all pairs of the group of pair `i`. Nothing is skipped of what is numbered behind them.
+    #[cfg(any(target_arch = "x86_64", test))]
+    pub(in crate::forces) fn look_again_at(&mut self, i: usize) {
+        self.pace = Pace::any();
+        if i < self.watched.len() {
+            let g = self.looks.partition_point(|look| look.first <= i) - 1;
+            self.looks[g].reach_squared = -S::one();
+        }
+    }
+
     /// Makes the watched pairs of `group`, number `g`, those that an evaluation looks at; returns how many there are.
     pub(super) fn look_at_watched(&mut self, g: usize, group: &Group) -> usize {
         for place in self.watched_of(g, group) {

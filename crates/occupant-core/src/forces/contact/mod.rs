@@ -13,6 +13,7 @@ pub(crate) mod near;
 mod pane;
 mod results;
 pub mod self_contact;
+mod shared;
 pub mod solid;
 mod start;
 pub mod surface;
@@ -171,7 +172,8 @@ impl Element for Contacts {
         let names = data.surfaces.iter().map(|s| &s.name).chain(data.solids.iter().map(|s| &s.name));
         let names: Vec<&String> = names.collect();
         let faces = law.pairs.iter().map(|pair| pair.parts.iter().map(|part| (&part.law, part.surface)).collect());
-        let solids = law.solids.pairs.iter().map(|union| vec![(&union.law, union.members[0].surface)]);
+        let unions = law.solids.pairs.iter().zip(law.solids.laws.iter());
+        let solids = unions.map(|(union, own)| vec![(&own.law, union.members[0].surface)]);
         let overrun = |(past, laws): (&PairHistory<f64>, Vec<(&MaterialLaw<f64>, usize)>)| {
             laws.into_iter().find_map(|(law, surface)| {
                 let ForceLaw::Deflection(law) = &law.force else { return None };
@@ -384,7 +386,7 @@ impl ContactSystem<f64> {
     /// Coefficient of friction of a touch of what is no body.
     pub(crate) fn friction(&self, touch: &Touch<f64>) -> f64 {
         let faces = self.pairs.get(touch.pair).map(|pair| &pair.parts[touch.part as usize].law);
-        faces.unwrap_or_else(|| &self.solids.pairs[touch.pair - self.pairs.len()].law).friction
+        faces.unwrap_or_else(|| &self.solids.laws[touch.pair - self.pairs.len()].law).friction
     }
 
     /// Law of a part of a pair.
@@ -392,7 +394,7 @@ impl ContactSystem<f64> {
         match (self.own.get(pair), self.pairs.get(pair)) {
             (Some(own), _) => &own.law,
             (None, Some(faces)) => &faces.parts[part].law,
-            (None, None) => &self.solids.pairs[pair - self.pairs.len()].law,
+            (None, None) => &self.solids.laws[pair - self.pairs.len()].law,
         }
     }
 

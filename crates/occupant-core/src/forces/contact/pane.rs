@@ -87,11 +87,12 @@ impl ContactSystem<f64> {
             let of = |(g, group): (usize, &Group)| group.pairs.clone().map(move |i| [g, i]).collect::<Vec<_>>();
             (first..).zip(groups).flat_map(of).collect()
         };
-        for ([g, i], pair) in numbered(groups, 0).into_iter().zip(pairs) {
-            pair.parts.iter_mut().for_each(|part| note(&mut part.law, part.surface, [g, i]));
+        for [g, i] in numbered(groups, 0) {
+            pairs.get_mut(i).parts.iter_mut().for_each(|part| note(&mut part.law, part.surface, [g, i]));
         }
-        for ([g, i], union) in numbered(&solids.groups, groups.len()).into_iter().zip(&mut solids.pairs) {
-            note(&mut union.law, surfaces + first_of_group(union.members[0].solid), [g, i]);
+        for (j, [g, i]) in numbered(&solids.groups, groups.len()).into_iter().enumerate() {
+            let pane = surfaces + first_of_group(solids.pairs[j].members[0].solid);
+            note(&mut solids.laws.get_mut(j).law, pane, [g, i]);
         }
     }
 
@@ -157,7 +158,7 @@ impl<S: Scalar> ContactSystem<S> {
             }
             let (arm, weight) = (lever(nearest.depth, radius), S::select(touches, S::one(), o));
             let meeting = sphere.approach().meeting(nearest.normal, arm, nearest.depth, past[i].greatest, weight);
-            return S::select(touches, self.solids.pairs[j].law.strain(&meeting, pane), o);
+            return S::select(touches, self.solids.laws[j].law.strain(&meeting, pane), o);
         };
         let depth = self.planes[i].depth(sphere.centre_f);
         let live = depth.gt(o) & past[i].phase.lt(S::of(PASSED));

@@ -52,11 +52,10 @@ impl ContactSystem<f64> {
         let Some(j) = i.checked_sub(self.pairs.len()) else {
             return self.begin_face(i, radius, centre, &mut past[i]);
         };
-        let union = &self.solids.pairs[j];
-        union.members.iter().for_each(|member| past[member.past] = APART);
+        self.solids.pairs[j].members.iter().for_each(|member| past[member.past] = APART);
         let nearest = self.solids.nearest(j, centre, radius, past, true);
         past[i] = APART;
-        union.commit(nearest.depth, &mut past[i]);
+        self.solids.laws[j].commit(nearest.depth, &mut past[i]);
         -nearest.depth
     }
 

@@ -17,6 +17,7 @@ use crate::forces::contact::face::{Offset, Outline, V2};
 use crate::forces::contact::law::{Law, MaterialLaw, Meeting};
 use crate::forces::contact::pane::Pane;
 use crate::forces::contact::self_contact::SelfPairs;
+use crate::forces::contact::shared::Shared;
 use crate::forces::contact::solid::Solids;
 use crate::forces::sphere::Use;
 use crate::motion::scalar::Scalar;
@@ -57,7 +58,7 @@ pub struct Part<S> {
     pub(crate) law: MaterialLaw<S>,
 }
 
-/// A sphere against a face: coplanar parts that share edges.
+/// A face that spheres meet: coplanar parts that share edges.
 #[derive(Clone, Debug)]
 pub struct Pair<S> {
     /// Plane axes in the face's frame, u × v = N̂.
@@ -65,7 +66,7 @@ pub struct Pair<S> {
     pub(crate) v: V3<S>,
     /// N̂.
     pub(crate) normal: V3<S>,
-    /// The parts that this sphere can touch.
+    /// The parts.
     pub parts: Vec<Part<S>>,
     /// 1 where Δ_m is kept after opening, else 0.
     pub(crate) retain: S,
@@ -152,7 +153,7 @@ pub struct ContactSystem<S> {
     pub groups: Vec<Group>,
     pub(crate) planes: Vec<Plane<S>>,
     /// The pairs.
-    pub pairs: Vec<Pair<S>>,
+    pub pairs: Shared<Pair<S>>,
     /// 1 where the edge force acts at A, 0 at the centre.
     pub(crate) edge_lever: S,
     /// Bodies with thickness; their pairs are numbered behind those of faces.

@@ -21,11 +21,10 @@ impl<S: Copy> ContactSystem<S> {
             return Err(OTHER_PAIRS);
         }
         let planes = self.planes.iter().zip(&other.planes);
-        let pairs = self.pairs.iter().zip(&other.pairs);
         Ok(ContactSystem {
             groups: self.groups.clone(),
             planes: planes.map(|(a, b)| a.zip(b, f)).collect(),
-            pairs: pairs.map(|(a, b)| a.zip(b, f)).collect::<Result<_, _>>()?,
+            pairs: self.pairs.zip(&other.pairs, OTHER_PAIRS, |a, b| a.zip(b, f))?,
             edge_lever: f(self.edge_lever, other.edge_lever),
             solids: self.solids.zip(&other.solids, f)?,
             own: self.own.zip(&other.own, f)?,

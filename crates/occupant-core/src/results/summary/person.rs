@@ -5,7 +5,7 @@ use crate::body::tree::BodyRow;
 use crate::kernel::instruments::{SIDE_SIGNALS, TIBIA_SIGNALS};
 use crate::model::Model;
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::results::fine::{Fine, REAR_SIGNALS, SIGNALS};
+use crate::results::fine::{Fine, REAR_SIGNALS};
 use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
 use crash_measures::injury::{self, ChestPoint, Options, Readings, Signals, Special, TibiaLoad, TibiaSite};
 use crash_measures::measure::{Peak as Extreme, ThreeMs};
@@ -49,18 +49,22 @@ impl Watched {
         if self.signals.is_empty() {
             (self.signals.start_s, self.signals.interval_s) = (fine.first_s(), fine.interval_s);
         }
-        for sample in fine.of(place) {
-            for ((n, values), number) in self.signals.all_mut().enumerate().zip(sample) {
-                let is_read = self.has.get(n / 3).is_none_or(|has| *has);
-                values.push(if is_read { *number } else { f64::NAN });
+        let column = |values: &mut Vec<f64>, at: usize| values.extend(fine.of(place).map(|sample| sample[at]));
+        for (n, values) in self.signals.all_mut().enumerate() {
+            match self.has.get(n / 3) {
+                Some(false) => values.extend(fine.of(place).map(|_| f64::NAN)),
+                _ => column(values, n),
             }
-            let legs = (&LEGS[..], fine.legs_of(sample));
-            let more = [(&SIDE[..], fine.side_of(sample)), legs, (&REAR[..], fine.rear_of(sample))];
-            let more = more.into_iter().flat_map(|(which, numbers)| which.iter().copied().zip(numbers));
-            for (which, number) in CHEST.into_iter().zip(&sample[SIGNALS..]).chain(more) {
-                if let Some(values) = self.signals.special.get_mut(&which) {
-                    values.push(*number);
-                }
+        }
+        let parts: [(&[Special], _); 4] = [
+            (&CHEST, fine.chest_part()),
+            (&SIDE, fine.side_part()),
+            (&LEGS, fine.legs_part()),
+            (&REAR, fine.rear_part()),
+        ];
+        for (which, at) in parts.into_iter().flat_map(|(all, part)| all.iter().zip(part)) {
+            if let Some(values) = self.signals.special.get_mut(which) {
+                column(values, at);
             }
         }
     }

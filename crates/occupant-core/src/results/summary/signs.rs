@@ -5,11 +5,11 @@ use super::elements::Elements;
 use super::peak::Peak;
 use super::slide::Slides;
 use super::strokes::Strokes;
-use crate::body::{Body, Segment};
+use crate::body::Body;
 use crate::forces::bag::Bag;
 use crate::forces::chain::wing::LEAST_N;
 use crate::forces::chain::{Chain, OnShoulder};
-use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
+use crate::forces::contact::{ContactSystem, Group, PASSED, Plane, Touch};
 use crate::forces::joint::{JointLaw, Stop};
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
@@ -71,6 +71,8 @@ pub(super) struct Signs {
     slides: Slides,
     /// By segment: distance from its spheres at which it passed through a surface.
     cuts: Vec<Sunk>,
+    /// By segment of an arm or a leg: its length, m.
+    limbs: Vec<Option<f64>>,
     /// By pair: whether it had passed at the start, and whether the sphere's limb passed through it.
     begun: Vec<[bool; 2]>,
     is_begun: bool,
@@ -132,6 +134,7 @@ impl Signs {
             slides: Slides::new(model.setup()),
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
+            limbs: body.tree.segments().map(|own| body.tree.is_limb(own).then(|| body.far_m(own))).collect(),
             begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
             is_begun: false,
             seen_s: 0.0,
@@ -282,27 +285,29 @@ impl Signs {
         let contacts = &sample.model.system().forces.contacts;
         let sphere = &sample.model.body().spheres[group.sphere];
         let feels = || sample.actions.contacts.iter().any(|touch| touch.sphere == group.sphere);
-        let limb = limb(sample, sphere.segment).map(|ends| ends.map(|end| into_frame(sample, group.frame, end)));
+        let (segment, mut place) = (sphere.segment.index(), None);
+        let limb = self.limbs[segment].map(|length_m| limb(sample, group.frame, segment, length_m));
         for i in group.pairs.clone() {
             let has_passed = sample.history.memory.contacts[i].phase == PASSED;
             if has_passed && !self.begun[i][0] {
-                let (overlap_m, surface) =
-                    overlap(contacts, i, centre(sample, group.frame, group.sphere), sphere.radius_m);
                 if !self.is_begun {
                     self.begun[i][0] = true;
                 } else if !feels() {
+                    let centre = *place.get_or_insert_with(|| centre(sample, group.frame, group.sphere));
+                    let (overlap_m, surface) = overlap(contacts, i, centre, sphere.radius_m);
                     self.passed[group.sphere].see_first(overlap_m, surface, sample.time_s);
                 }
             }
             self.begun[i][0] &= has_passed;
             let Some(ends) = limb.filter(|_| !self.begun[i][1]) else { continue };
-            for part in &contacts.pairs[i].parts {
-                let Some(place) = crossing(contacts, i, part, sphere.radius_m, ends) else { continue };
+            let Some(place) = crossing(&contacts.planes[i], sphere.radius_m, ends) else { continue };
+            let pair = &contacts.pairs[i];
+            for part in pair.parts.iter().filter(|part| pair.beside(part, place) == 0.0) {
                 if !self.is_begun {
                     self.begun[i][1] = true;
                 } else {
                     let clear_m = clear_m(sample, group.frame, place);
-                    self.cuts[sphere.segment.index()].see_first(clear_m, part.surface, sample.time_s);
+                    self.cuts[segment].see_first(clear_m, part.surface, sample.time_s);
                 }
             }
         }
@@ -449,11 +454,11 @@ fn sense(stop: &Stop) -> f64 {
     (stop.full_rad - stop.begin_rad).signum()
 }
 
-/// Both ends of a segment of an arm or a leg, space axes, m; none for trunk and head.
-fn limb(sample: &Sample<'_>, segment: Segment) -> Option<[V3<f64>; 2]> {
-    let (body, k, n) = (sample.model.body(), &sample.evaluation.kinematics, segment.index());
-    let far = k.joint[n] + k.axes[n].z * body.far_m(segment);
-    body.tree.is_limb(segment).then_some([k.joint[n], far])
+/// Both ends of a segment, axes of a frame, m.
+fn limb(sample: &Sample<'_>, frame: usize, segment: usize, length_m: f64) -> [V3<f64>; 2] {
+    let k = &sample.evaluation.kinematics;
+    let far = k.joint[segment] + k.axes[segment].z * length_m;
+    [k.joint[segment], far].map(|end| into_frame(sample, frame, end))
 }
 
 fn into_frame(sample: &Sample<'_>, frame: usize, point: V3<f64>) -> V3<f64> {
@@ -475,21 +480,10 @@ fn overlap(contacts: &ContactSystem<f64>, i: usize, centre: V3<f64>, radius_m: f
     parts.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, 0))
 }
 
-/// Intersection of a line with a part of pair `i` of a sphere.
-fn crossing(
-    contacts: &ContactSystem<f64>,
-    i: usize,
-    part: &Part<f64>,
-    radius_m: f64,
-    [from, to]: [V3<f64>; 2],
-) -> Option<V3<f64>> {
-    let plane: &Plane<f64> = &contacts.planes[i];
+/// Intersection of a line with a plane raised by the radius of a sphere.
+fn crossing(plane: &Plane<f64>, radius_m: f64, [from, to]: [V3<f64>; 2]) -> Option<V3<f64>> {
     let [begin, end] = [from, to].map(|point| plane.depth(point) - radius_m);
-    if begin * end >= 0.0 {
-        return None;
-    }
-    let place = from + (to - from) * (begin / (begin - end));
-    (contacts.pairs[i].beside(part, place) == 0.0).then_some(place)
+    (begin * end < 0.0).then(|| from + (to - from) * (begin / (begin - end)))
 }
 
 /// Distance of a point from the nearest sphere of the body, m.

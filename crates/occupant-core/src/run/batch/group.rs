@@ -262,16 +262,13 @@ impl<L: Machine> Group<L> {
         state
     }
 
-    /// Updates the history of run `i`. Pairs far from contact stay skipped where no contact has begun or ended
+    /// Updates the history of run `i`. Pairs far from contact stay skipped in groups in which no contact has begun or ended
     /// meanwhile.
     fn fetch_history(&mut self, i: usize, run: &mut Course) {
         let Some(bench) = &mut self.bench else { return };
-        let (lanes, own) = (&mut bench.history.memory, &mut run.history.memory);
-        let is_like = lanes.contacts.iter().zip(&own.contacts).all(|(lanes, own)| lanes.phase.lane(i) == own.phase);
-        lanes.each(own, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
-        if !is_like {
-            run.history.look_again();
-        }
+        let lanes = &mut bench.history.memory;
+        run.history.look_again_where(|pair| lanes.contacts[pair].phase.lane(i));
+        lanes.each(&mut run.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
     }
 
     /// Finishes the only remaining run with the scalar kernel.

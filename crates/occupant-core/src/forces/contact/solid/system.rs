@@ -5,12 +5,14 @@
 //! (6.3), the friction; U is a function of the centre alone.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::{Faced, Solid, build};
 use crate::body::Body;
 use crate::forces::contact::assembly::{frames, is_own, meets, uses};
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::material::{Material, Memory};
+use crate::forces::contact::shared::{Numbers, Shared};
 use crate::forces::contact::zip::{OTHER_OUTLINES, OTHER_PAIRS};
 use crate::forces::contact::{ContactData, Group, MaterialLaw, OPEN, PairHistory, TOUCHING, Touch};
 use crate::forces::element::Unlike;
@@ -22,17 +24,24 @@ use crate::motion::vector::V3;
 pub(crate) struct Solids<S> {
     /// Pairs by sphere and frame, numbered on from those of faces.
     pub(crate) groups: Vec<Group>,
-    /// The pairs.
-    pub(crate) pairs: Vec<Union<S>>,
+    /// The pairs; the same list for all runs side by side.
+    pub(crate) pairs: Arc<Vec<Union>>,
+    /// Their laws.
+    pub(crate) laws: Shared<UnionLaw<S>>,
     /// By solid.
     pub(crate) shapes: Vec<Faced<S>>,
 }
 
 /// A sphere against the solids of a group.
-#[derive(Clone, Debug)]
-pub(crate) struct Union<S> {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Union {
     /// The solids.
     pub members: Vec<Member>,
+}
+
+/// Forces of the solids of a group on a sphere.
+#[derive(Clone, Debug)]
+pub(crate) struct UnionLaw<S> {
     pub law: MaterialLaw<S>,
     /// 1 where Δ_m is kept after opening, else 0.
     pub retain: S,
@@ -66,49 +75,56 @@ impl Solids<f64> {
         let surfaces = data.surfaces.len();
         let frames = frames(solids.iter().map(|s| s.frame), carriers);
         let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::default() };
-        let mut unions: HashMap<&str, usize> = HashMap::new();
+        let (mut unions, mut pairs_of): (HashMap<&str, usize>, Vec<Union>) = Default::default();
+        let mut numbers = Numbers::new();
         for (sphere, data) in body.spheres.iter().enumerate() {
             for &(frame, index) in &frames {
                 if is_own(body, data, frame) {
                     continue;
                 }
                 for by in uses(data) {
-                    let first = all.pairs.len();
+                    let first = pairs_of.len();
                     unions.clear();
                     let is_met = |s: &Solid| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
                     let meets = |i: usize, s: &Solid| is_met(s) && meets(by, data, behind, surfaces + i);
                     for (i, solid) in solids.iter().enumerate().filter(|(i, solid)| meets(*i, solid)) {
                         let member = Member { solid: i, surface: surfaces + i, past: 0 };
-                        let own = all.pairs.len();
+                        let own = pairs_of.len();
                         let place = solid.group.as_deref().map_or(own, |group| *unions.entry(group).or_insert(own));
-                        match all.pairs.get_mut(place) {
+                        match pairs_of.get_mut(place) {
                             Some(union) => union.members.push(member),
                             None => {
                                 let is_thin = solid.shape.bar_radius_m().is_some_and(|bar_m| bar_m < data.radius_m);
                                 let share = if is_thin { data.bar_share } else { data.share };
-                                all.pairs.push(Union::new(member, &materials[solid.material], share));
+                                let material = &materials[solid.material];
+                                // what breaks has a law of its own, which knows the pane
+                                let pane = material.breaks.as_ref().map(|_| i);
+                                let number = numbers.of((share.to_bits(), solid.material, pane));
+                                all.laws.push(number, || UnionLaw::new(material, share));
+                                pairs_of.push(Union { members: vec![member] });
                             }
                         }
                     }
-                    let pairs = pairs + first..pairs + all.pairs.len();
+                    let pairs = pairs + first..pairs + pairs_of.len();
                     if !pairs.is_empty() {
                         all.groups.push(Group { sphere, frame: index, by: *by, pairs });
                     }
                 }
             }
         }
-        let behind = pairs + all.pairs.len();
-        for (i, member) in all.pairs.iter_mut().flat_map(|union| &mut union.members).enumerate() {
+        let behind = pairs + pairs_of.len();
+        for (i, member) in pairs_of.iter_mut().flat_map(|union| &mut union.members).enumerate() {
             member.past = behind + i;
         }
+        all.pairs = pairs_of.into();
         all
     }
 }
 
-impl Union<f64> {
-    fn new(member: Member, material: &Material, share: f64) -> Self {
+impl UnionLaw<f64> {
+    fn new(material: &Material, share: f64) -> Self {
         let retain = if material.memory == Memory::Retain { 1.0 } else { 0.0 };
-        Union { members: vec![member], law: MaterialLaw::new(material, share), retain }
+        UnionLaw { law: MaterialLaw::new(material, share), retain }
     }
 }
 
@@ -155,7 +171,7 @@ impl<S: Scalar> Solids<S> {
     }
 }
 
-impl<S: Scalar> Union<S> {
+impl<S: Scalar> UnionLaw<S> {
     /// Takes the depth at an accepted step over into what the pair remembers.
     #[inline(always)]
     pub(crate) fn commit(&self, depth: S, pair: &mut PairHistory<S>) {
@@ -207,18 +223,18 @@ pub(crate) fn lever<S: Scalar>(depth: S, radius: S) -> S {
 
 impl<S: Copy> Solids<S> {
     pub(crate) fn zip<A: Copy, T>(&self, other: &Solids<A>, f: &impl Fn(S, A) -> T) -> Result<Solids<T>, Unlike> {
-        let members = |(a, b): (&Union<S>, &Union<A>)| a.members == b.members;
-        let pairs = self.pairs.iter().zip(&other.pairs);
-        if self.groups != other.groups || !pairs.clone().all(members) || self.shapes.len() != other.shapes.len() {
+        let is_like = self.groups == other.groups && self.pairs == other.pairs;
+        if !is_like || self.shapes.len() != other.shapes.len() {
             return Err(OTHER_PAIRS);
         }
-        let union = |(a, b): (&Union<S>, &Union<A>)| {
-            Ok(Union { members: a.members.clone(), law: a.law.zip(&b.law, f)?, retain: f(a.retain, b.retain) })
+        let law = |a: &UnionLaw<S>, b: &UnionLaw<A>| {
+            Ok(UnionLaw { law: a.law.zip(&b.law, f)?, retain: f(a.retain, b.retain) })
         };
         let shapes = self.shapes.iter().zip(&other.shapes).map(|(a, b)| a.zip(b, f).ok_or(OTHER_OUTLINES));
         Ok(Solids {
             groups: self.groups.clone(),
-            pairs: pairs.map(union).collect::<Result<_, _>>()?,
+            pairs: self.pairs.clone(),
+            laws: self.laws.zip(&other.laws, OTHER_PAIRS, law)?,
             shapes: shapes.collect::<Result<_, _>>()?,
         })
     }
