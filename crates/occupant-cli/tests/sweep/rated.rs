@@ -132,6 +132,7 @@ fn parts_are_rated_when_they_are_merged() {
         assert!(!told.contains("Driver") && !at.join(out).join("rating.xlsx").exists(), "{told}");
     }
     // the folder is enough to merge
+    let case = read(at, "case.toml");
     ["case.toml", "study.toml"].iter().for_each(|name| fs::remove_file(at.join(name)).unwrap());
     let told = done(at, &["sweep", "merge", "both"]);
     assert!(told.contains("Driver, Hybrid III 50M: "), "{told}");
@@ -144,6 +145,17 @@ fn parts_are_rated_when_they_are_merged() {
     done(at, &["sweep", "merge", "a", "b", "-o", "table"]);
     assert_eq!(files(&at.join("table/runs"), ".mcap").len(), 2);
     assert!(rating(at, "table") == whole, "other bytes");
+    // another rating is that of the merge once all folders have it
+    fs::write(at.join("case.toml"), case).unwrap();
+    fs::write(at.join("study.toml"), STUDY.replace("[\"front passenger\", \"driver\"]", "[\"driver\"]")).unwrap();
+    done(at, &["sweep", "study.toml", "-o", "a", "--shard", "1/2"]);
+    let mixed = answer(at, &["sweep", "merge", "a", "b", "-o", "table"]);
+    assert_eq!(mixed.status.code(), Some(2));
+    assert!(err(&mixed).contains("a and b contain parts of different sweeps"), "{}", err(&mixed));
+    assert!(err(&mixed).contains("study.toml, line 16: `places = [\"driver\"]`"), "{}", err(&mixed));
+    done(at, &["sweep", "study.toml", "-o", "b", "--shard", "2/2"]);
+    done(at, &["sweep", "merge", "a", "b", "-o", "table"]);
+    assert_eq!(json(at, "table/rating.json")["results"].as_array().unwrap().len(), 2);
 }
 
 /// A pulse of no speed is refused, so its body is blank, and the other is rated.
@@ -183,7 +195,7 @@ fn wrong_ratings_are_refused() {
         ("\"driver\"", "\"pilot\"", &["study.toml:16:30", "\"pilot\": no occupant of un-r137", "a part of one of"]),
         ("\"driver\"", "\"hybrid iii\"", &["rating.places[1]", "2 occupants have this name", "one of Driver"]),
         ("\"driver\"", "\"passenger\"", &["rating.places[1]", "two bodies are Front Passenger"]),
-        ("\"25 mph\"", "\"25 mph\", \"30 mph\"", &["study.toml:16:10", "2 places, but 3 runs with 1 occupants"]),
+        ("\"25 mph\"", "\"25 mph\", \"30 mph\"", &["study.toml:16:10", "2 places, but 3 runs with one occupant each"]),
         (places, "places = [\"pilot\"]", &["rating.places[0]", "no occupant of un-r137"]),
         (places, "values = \"none.csv\"", &["rating.values", "none.csv cannot be read"]),
     ];

@@ -8,6 +8,7 @@ use occupant_core::model::Model;
 use occupant_scenario::Diagnostics;
 use occupant_study::engine::Engine;
 use occupant_study::{Keep, RatingSection, StudyText};
+use placed_text::{CELL, shortened};
 use rayon::prelude::*;
 
 use super::Plan;
@@ -16,7 +17,7 @@ use crate::base::{Existing, Failure, Interrupt, Units, file_name, json, sha256, 
 use crate::files::scenario::refused;
 use crate::files::study_folder::{Checksums, Folder, Journal, NamedBy, Row, Status, Texts};
 use crate::measures::Judged;
-use crate::rated::bodies::{Item, One, answer, notes, of_run, rate_all, tables};
+use crate::rated::bodies::{self, Item, One, answer, of_run, rate_all, tables};
 use crate::rated::{Misplaced, Values, distinct, named, unknown, write};
 use occupant_files::results::Results;
 
@@ -128,20 +129,15 @@ impl Rates {
         Ok(of_run(&Judged::of(results, None, Options::default(), units, ())?))
     }
 
-    /// Rates bodies: those without a run as blanks if all are rated together, else not at all, which is said.
-    fn rate(&self, mut items: Vec<Item>) -> Result<(Vec<One>, Vec<Item>, Vec<String>), Failure> {
+    /// Bodies to rate, and words on those left out: without a run they are blank if all are rated together.
+    fn rateable(&self, mut items: Vec<Item>) -> (Vec<Item>, Vec<String>) {
         let mut left_out = Vec::new();
         if self.places.len() < 2 || items.iter().all(|item| item.missing.is_some()) {
             left_out = items.iter().filter_map(|item| item.missing.clone()).collect();
             left_out.dedup();
             items.retain(|item| item.missing.is_none());
         }
-        if items.is_empty() {
-            return Ok((Vec::new(), items, left_out));
-        }
-        let all = rate_all(self.rating, &self.places, self.values.as_ref(), &items)?;
-        left_out.extend(notes(&all));
-        Ok((all, items, left_out))
+        (items, left_out)
     }
 }
 
@@ -174,7 +170,7 @@ fn occupants(model: Option<&Model>) -> Vec<String> {
 /// Place in the study, what was found and what was expected of places that are not those of the bodies.
 fn check(rating: &Rating, places: &[String], (runs, occupants): (u64, u64)) -> Result<(), (String, String, String)> {
     let misplaced = |Misplaced { at, found, expected }: Misplaced| {
-        (format!("rating.places[{at}]"), format!("\"{}\": {found}", places[at]), expected)
+        (format!("rating.places[{at}]"), format!("\"{}\": {found}", shortened(&places[at], CELL)), expected)
     };
     match places {
         [] => return Ok(()),
@@ -185,7 +181,8 @@ fn check(rating: &Rating, places: &[String], (runs, occupants): (u64, u64)) -> R
     if runs.checked_mul(occupants) == Some(places.len() as u64) {
         return Ok(());
     }
-    let found = format!("{} places, but {runs} runs with {occupants} occupants each", places.len());
+    let each = if occupants == 1 { "one occupant".to_owned() } else { format!("{occupants} occupants") };
+    let found = format!("{} places, but {runs} runs with {each} each", places.len());
     let expected = "one for each occupant of each run in the order of the runs, or one for all".to_owned();
     Err(("rating.places".to_owned(), found, expected))
 }
@@ -246,15 +243,17 @@ pub fn rate(
         samples.push(Ended::of(&row));
         Ok(())
     })?;
-    let bodies = |ended: &Ended| {
+    let of_sample = |ended: &Ended| {
         interrupt.refuse("all samples are finished; run the same command again to rate them")?;
         rates.bodies(ended, folder, run_of, units)
     };
-    let items = engine.share(|| samples.par_iter().map(bodies).collect::<Result<Vec<_>, Failure>>())?;
-    let (all, items, notes) = rates.rate(items.concat())?;
-    if all.is_empty() {
+    let items = engine.share(|| samples.par_iter().map(of_sample).collect::<Result<Vec<_>, Failure>>())?;
+    let (items, mut notes) = rates.rateable(items.concat());
+    if items.is_empty() {
         return none(notes);
     }
+    let all = rate_all(rates.rating, &rates.places, rates.values.as_ref(), &items)?;
+    notes.extend(bodies::notes(&all));
     let written = written(rates.rating, &all, folder);
     if written.is_err() {
         folder.remove_partial_tables();

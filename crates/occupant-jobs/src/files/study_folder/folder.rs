@@ -306,7 +306,7 @@ impl Folder {
     /// # Errors
     /// The existing manifest.
     pub fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
-        if self.manifest()?.is_some_and(|there| there.is_of(manifest)) {
+        if self.manifest()?.is_some_and(|there| there.is_of_rows(manifest)) {
             return Ok(());
         }
         let mut results = self.files().into_iter().chain([self.runs(), self.manifest_path()]);

@@ -119,12 +119,14 @@ impl Manifest {
         self.identity() == other.identity()
     }
 
-    /// Whether both are of the same rows, rated in the same way: one study, as many samples, the same tables.
+    /// Whether both are of the same rows: one study, as many samples, the same tables.
+    pub fn is_of_rows(&self, other: &Manifest) -> bool {
+        self.samples == other.samples && self.is_of_study(other) && self.tables().eq(other.tables())
+    }
+
+    /// Whether both are of the same rows, rated in the same way.
     pub fn is_of(&self, other: &Manifest) -> bool {
-        self.samples == other.samples
-            && self.rating == other.rating
-            && self.is_of_study(other)
-            && self.tables().eq(other.tables())
+        self.rating == other.rating && self.is_of_rows(other)
     }
 
     /// Texts besides study and scenario, of which every byte counts.
