@@ -239,9 +239,9 @@ pub struct RatingSection {
     /// Name of the rating.
     #[schemars(extend("enum" = names_of_ratings()))]
     pub name: String,
-    /// Occupants of the rating, each by a part of case, seat and dummy, such as "sled-mid driver". One for each occupant of
-    /// each run, in the order of the runs: all are rated together. One alone: each body is rated as this one. If absent,
-    /// each is rated as those with its dummy.
+    /// Occupants of the rating, each by a part of case, seat and dummy, such as "sled-mid driver". One for each occupant
+    /// of each run, in the order of the runs: all are rated together. One alone: each body is rated as this one. If
+    /// absent, each is rated as those with its dummy.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub places: Vec<String>,
     /// A table of values (CSV, XLSX) in the layout of the rating's template, relative to this file. They count before

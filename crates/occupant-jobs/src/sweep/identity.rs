@@ -8,8 +8,8 @@ use placed_text::{Document, Node, Value};
 use crate::base::sha256;
 use crate::files::study_folder::{NamedBy, Text};
 
-/// SHA-256 of the contents of study, scenario and tables. The rating of the study does not count; of a design whose first samples
-/// stay as they are when there are more, the number of samples does not, nor does its table.
+/// SHA-256 of the contents of study, scenario and tables. The rating of the study does not count; of a design whose first
+/// samples stay as they are when there are more, the number of samples does not, nor does its table.
 pub fn digest(study: &Study, texts: &[(&Text, &[u8])]) -> String {
     let grows = fixed(&study.design).is_none();
     let mut all = String::new();

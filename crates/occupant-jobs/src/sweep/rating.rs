@@ -220,8 +220,8 @@ pub fn lacking(plan: &Plan, journal: &Journal, run_of: RunOf<'_>) -> Result<Vec<
     Ok(lacking)
 }
 
-/// Rates the runs of a finished sweep as its study says, and writes the filled template and JSON into its folder. Without a
-/// rating it removes those of an earlier one.
+/// Rates the runs of a finished sweep as its study says, and writes the filled template and JSON into its folder.
+/// Without a rating it removes those of an earlier one.
 ///
 /// # Errors
 /// A run that cannot be read; interrupted; an error of the operating system.
