@@ -278,8 +278,9 @@ impl Study {
     }
 
     /// Runs all of it into `folder`, as `occupant sweep`: results.parquet, with `csv` results.csv too, and whole runs
-    /// where `keep` says so ("all", "3, 17" or "worst 5 by head.peak"; as the study says if None). An interrupted sweep
-    /// is resumed unless `restart`. `threads` and `progress` as of `run`. Gives the words that the command prints.
+    /// where `keep` says so ("all", "3, 17" or "worst 5 by head.peak"; as the study says if None). Runs of a study with
+    /// a `rating` are rated: rating.xlsx, rating.json. An interrupted sweep is resumed unless `restart`. `threads` and
+    /// `progress` as of `run`. Gives the words that the command prints.
     #[pyo3(signature = (folder, csv=false, keep=None, restart=false, threads=None, progress=None))]
     #[allow(clippy::too_many_arguments)]
     fn sweep(

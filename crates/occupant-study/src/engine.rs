@@ -132,6 +132,11 @@ impl Engine {
         self.pool.current_num_threads()
     }
 
+    /// Does other work on the threads of the engine, as parallel iterators share it.
+    pub fn share<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(work)
+    }
+
     /// Runs all `indices` and hands each row to `sink` on the calling thread, in the order in which the runs end. Once
     /// `stop` is true nothing new is begun, and runs under way end at their next output without a row. Threads wait while
     /// the sink has no room. A run on which the program panics is a row; those under way with it are computed again.

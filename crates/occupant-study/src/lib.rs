@@ -100,7 +100,7 @@ pub use parameter::{Assignment, Parameter, Target};
 pub use random::{of_resample, of_stretch};
 pub use rows::Rows;
 pub use saltelli::Block;
-pub use section::{ApplyChoice, StudySection, schema_json};
+pub use section::{ApplyChoice, RatingSection, StudySection, schema_json};
 pub use text::StudyText;
 
 use self::copula::Copula;

@@ -4,6 +4,7 @@
 
 use std::sync::OnceLock;
 
+use crash_measures::rating::RATINGS;
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -66,6 +67,8 @@ pub struct StudySection {
     pub keep: Option<KeepSection>,
     /// Files written besides the table of results.
     pub output: Option<StudyOutputSection>,
+    /// Rates the bodies of a sweep's runs as a crash test is rated, when all are finished; needs `keep = "all"`.
+    pub rating: Option<RatingSection>,
 }
 
 /// A parameter: one or several values of the scenario that are varied together.
@@ -227,4 +230,25 @@ pub struct StudyOutputSection {
     /// Measures that the table keeps, by their columns' names, with `*` for any part: `["hic15", "chest*"]`. All if absent.
     #[schemars(extend("minItems" = 1))]
     pub measures: Option<Vec<String>>,
+}
+
+/// A rating of the bodies of a sweep's runs, as `occupant measures --rating` makes it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RatingSection {
+    /// Name of the rating.
+    #[schemars(extend("enum" = names_of_ratings()))]
+    pub name: String,
+    /// Occupants of the rating, each by a part of case, seat and dummy, such as "sled-mid driver". One for each occupant
+    /// of each run, in the order of the runs: all are rated together. One alone: each body is rated as this one. If
+    /// absent, each is rated as those with its dummy.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<String>,
+    /// A table of values (CSV, XLSX) in the layout of the rating's template, relative to this file. They count before
+    /// measures.
+    pub values: Option<String>,
+}
+
+fn names_of_ratings() -> Vec<&'static str> {
+    RATINGS.iter().map(|rating| rating.name).collect()
 }

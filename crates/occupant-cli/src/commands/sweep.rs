@@ -24,7 +24,8 @@ use occupant_jobs::sweep::plan::Plan;
 /// Writes FOLDER/results.parquet: one row per sample with its inputs, all measures and how it ended. A failed sample has a
 /// row with the reason. Run the same command again to resume an interrupted sweep; finished samples are kept. To share a
 /// sweep between machines, give each a part (--shard, --range, or a Slurm job array): each writes a table of its own into
-/// FOLDER/parts, and `occupant sweep merge FOLDER` makes one of them at the end.
+/// FOLDER/parts, and `occupant sweep merge FOLDER` makes one of them at the end. If the study has a
+/// `rating`, the runs are rated then.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {

@@ -6,6 +6,7 @@ mod interrupted;
 mod kept;
 mod limits;
 mod parts;
+mod rated;
 mod refused;
 mod shards;
 mod table;

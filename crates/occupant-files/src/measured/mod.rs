@@ -132,7 +132,15 @@ pub fn read(path: &Path) -> Result<Recording, Failure> {
 /// # Errors
 /// A file that cannot be read, or that is no text and no workbook.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    as_text(path, input_file::read(path)?).map(|(text, ..)| text)
+    text_from(path, input_file::read(path)?)
+}
+
+/// The same from bytes; `path` is their name.
+///
+/// # Errors
+/// As [`text`].
+pub fn text_from(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
+    as_text(path, bytes).map(|(text, ..)| text)
 }
 
 /// Refuses files written by this program that are no records.

@@ -1,5 +1,6 @@
-//! Designs and parameters in words.
+//! Designs, parameters and caveats in words.
 
+use occupant_core::results::summary::Caveat;
 use occupant_study::{ApplyChoice, Change, Design, Distribution, Ensemble, Law, Parameter, Perturbation, Study, Value};
 
 use super::shown::{given, given_with_unit};
@@ -135,4 +136,9 @@ pub fn places(parameter: &Parameter) -> String {
 /// The base scenario's value of a parameter.
 pub fn nominal(parameter: &Parameter, unit: &Told) -> String {
     value(&parameter.nominal(), unit)
+}
+
+/// A caveat of a run or a note on it, as a line.
+pub fn caveat(of: &Caveat) -> String {
+    format!("{} {}\n", if of.is_note() { "note:" } else { "!" }, of.text)
 }

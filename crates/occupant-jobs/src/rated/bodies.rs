@@ -3,22 +3,25 @@
 use crash_measures::injury::Measure;
 use crash_measures::rating::{Occupant, Rated, Rating};
 use occupant_core::results::summary::{Caveat, Person};
+use placed_text::shown;
 
-use super::{Body, Result as Told, Values, choose, rate, rate_together, words};
+use super::{Answer, Body, Result as Told, Values, choose, distinct, rate, rate_together, text, words};
 use crate::base::Failure;
+use crate::base::describe::caveat;
 use crate::judged::Direction;
 use crate::measures::Judged;
 
 /// A body of a run or test.
-pub struct Item<'a> {
+#[derive(Clone, Debug, Default)]
+pub struct Item {
     /// The file.
-    pub file: &'a str,
+    pub file: String,
     /// Name of the occupant; empty for the only one.
     pub occupant: String,
     /// Words on the file.
-    pub notes: &'a [String],
+    pub notes: Vec<String>,
     /// Caveats of the run.
-    pub caveats: &'a [Caveat],
+    pub caveats: Vec<Caveat>,
     /// The dummy whose limits apply.
     pub dummy: &'static str,
     /// Whether it is a dummy; none for a test.
@@ -27,6 +30,8 @@ pub struct Item<'a> {
     pub direction: Option<Direction>,
     /// Its measures.
     pub measures: Vec<Measure>,
+    /// Why there is no run of it.
+    pub missing: Option<String>,
 }
 
 /// The rating of a body, or of several together.
@@ -44,22 +49,24 @@ pub struct One {
 }
 
 /// All occupants of runs.
-pub fn of_runs(all: &[Judged]) -> Vec<Item<'_>> {
+pub fn of_runs(all: &[Judged]) -> Vec<Item> {
     all.iter().flat_map(of_run).collect()
 }
 
-fn of_run(one: &Judged) -> Vec<Item<'_>> {
+/// All occupants of a run.
+pub fn of_run(one: &Judged) -> Vec<Item> {
     let item = |(prefix, person): (String, Person)| {
         let name = prefix.trim_end_matches('.').to_owned();
         Item {
-            file: &one.file,
-            notes: &one.notes,
-            caveats: &one.summary.caveats,
+            file: one.file.clone(),
+            notes: one.notes.clone(),
+            caveats: one.summary.caveats.clone(),
             dummy: person.dummy,
             is_dummy: Some(one.results.loaded.dummies().contains(&name)),
             direction: direction(one, &name),
             measures: person.measures,
             occupant: name,
+            missing: None,
         }
     };
     one.summary.people().into_iter().map(item).collect()
@@ -78,15 +85,15 @@ pub fn rate_all(
     rating: &'static Rating,
     places: &[String],
     values: Option<&Values>,
-    items: &[Item<'_>],
+    items: &[Item],
 ) -> Result<Vec<One>, Failure> {
     let spoils: Vec<_> = items.iter().map(|item| |own: &Measure| item.spoils(own)).collect();
     let bodies: Vec<Body<'_>> = items.iter().zip(&spoils).map(|(item, spoils)| item.body(spoils)).collect();
-    let alone = |(i, (item, body)): (usize, (&Item<'_>, &Body<'_>))| {
+    let alone = |(i, (item, body)): (usize, (&Item, &Body<'_>))| {
         let chosen = choose(rating, places.first().map(String::as_str), body.dummy)?;
         let rated = rate(rating, &chosen, body, values);
         let notes = item.words(rating, &chosen, body);
-        Ok(One { items: vec![i], file: item.file.to_owned(), occupant: item.occupant.clone(), notes, rated })
+        Ok(One { items: vec![i], file: item.file.clone(), occupant: item.occupant.clone(), notes, rated })
     };
     match places {
         [] | [_] => items.iter().zip(&bodies).enumerate().map(alone).collect(),
@@ -97,7 +104,7 @@ pub fn rate_all(
 fn together(
     rating: &'static Rating,
     places: &[String],
-    items: &[Item<'_>],
+    items: &[Item],
     bodies: &[Body<'_>],
     values: Option<&Values>,
 ) -> Result<One, Failure> {
@@ -105,29 +112,17 @@ fn together(
         let found = format!("{} bodies, but --place {} times", items.len(), places.len());
         return Err(Failure::with_help(found, "give one place for all, or one for each body in the order of the runs"));
     }
-    let mut chosen: Vec<&'static Occupant> = Vec::new();
-    for (place, body) in places.iter().zip(bodies) {
-        let found = choose(rating, Some(place), body.dummy)?;
-        match &found[..] {
-            [only] if chosen.iter().all(|other| other.place() != only.place()) => chosen.push(only),
-            [only] => {
-                let found = format!("--place {place}: two bodies are {}", only.place());
-                return Err(Failure::with_help(found, "give each body its own place"));
-            }
-            _ => {
-                let known: Vec<String> = found.iter().map(|own| own.place()).collect();
-                let found = format!("--place {place}: {} occupants have this name", known.len());
-                return Err(Failure::with_help(found, &format!("choose one of {}", known.join("; "))));
-            }
-        }
-    }
+    let chosen = distinct(rating, places).map_err(|wrong| {
+        let place = places.get(wrong.at).map_or("", String::as_str);
+        Failure::with_help(format!("--place {place}: {}", wrong.found), &format!("use {}", wrong.expected))
+    })?;
     let notes = items.iter().zip(bodies).zip(&chosen).flat_map(|((item, body), own)| {
-        let name = named(item.file, &item.occupant);
+        let name = named(&item.file, &item.occupant);
         item.words(rating, &[own], body).into_iter().map(move |words| format!("{name}: {words}"))
     });
     Ok(One {
         items: (0..items.len()).collect(),
-        file: different(items, |item| item.file.to_owned()).join(", "),
+        file: different(items, |item| item.file.clone()).join(", "),
         occupant: different(items, |item| item.occupant.clone()).join(", "),
         notes: notes.collect(),
         rated: rate_together(rating, &chosen, bodies, values),
@@ -135,10 +130,7 @@ fn together(
 }
 
 /// The texts of items, without those that repeat the one before.
-pub fn different<'i, 'a: 'i>(
-    items: impl IntoIterator<Item = &'i Item<'a>>,
-    of: impl Fn(&Item<'a>) -> String,
-) -> Vec<String> {
+fn different<'i>(items: impl IntoIterator<Item = &'i Item>, of: impl Fn(&Item) -> String) -> Vec<String> {
     let mut all: Vec<String> = items.into_iter().map(of).filter(|text| !text.is_empty()).collect();
     all.dedup();
     all
@@ -149,10 +141,11 @@ fn named(file: &str, occupant: &str) -> String {
     if occupant.is_empty() { file.to_owned() } else { format!("{file}, {occupant}") }
 }
 
-impl Item<'_> {
+impl Item {
     fn body<'b>(&'b self, spoils: &'b dyn Fn(&Measure) -> bool) -> Body<'b> {
         let Item { dummy, is_dummy, direction, .. } = *self;
-        Body { dummy, is_dummy, direction, measures: &self.measures, spoils }
+        let (measures, missing) = (&self.measures[..], self.missing.as_deref());
+        Body { dummy, is_dummy, direction, measures, spoils, missing }
     }
 
     /// Whether a caveat applies to a measure.
@@ -163,7 +156,8 @@ impl Item<'_> {
     }
 
     fn words(&self, rating: &Rating, chosen: &[&'static Occupant], body: &Body<'_>) -> Vec<String> {
-        self.notes.iter().cloned().chain(words(rating, chosen, body)).collect()
+        let own = if self.missing.is_none() { words(rating, chosen, body) } else { Vec::new() };
+        self.notes.iter().cloned().chain(own).collect()
     }
 }
 
@@ -177,4 +171,28 @@ impl One {
     pub fn told(&self) -> Told {
         Told::new(&self.file, &self.occupant, self.notes.clone(), &self.rated)
     }
+}
+
+/// Words on all bodies; of several with their names.
+pub fn notes(all: &[One]) -> Vec<String> {
+    let several = all.len() > 1;
+    let said = |one: &One, words: &String| if several { format!("{}: {words}", one.name()) } else { words.clone() };
+    all.iter().flat_map(|one| one.notes.iter().map(move |words| said(one, words))).collect()
+}
+
+/// What is told of all in JSON.
+pub fn answer(rating: &'static Rating, all: &[One]) -> Answer {
+    Answer::new(rating, all.iter().map(One::told).collect())
+}
+
+/// Tables of all: the rating and its source, then each body with what explains its marks.
+pub fn tables(rating: &Rating, all: &[One], items: &[Item]) -> String {
+    let head = format!("{}\n{}\n{}\n", rating.title, rating.source, rating.remark);
+    let body = |one: &One| format!("\n{}\n{}{}", shown(&one.name()), explained(one, items), text(&one.rated));
+    all.iter().map(body).fold(head, |all, body| all + &body)
+}
+
+fn explained(one: &One, items: &[Item]) -> String {
+    let own = one.items.iter().filter_map(|i| items.get(*i));
+    different(own, |item| item.caveats.iter().map(caveat).collect()).concat()
 }

@@ -8,7 +8,7 @@ mod values;
 
 use crash_measures::injury::Measure;
 use crash_measures::measure::Blow;
-use crash_measures::rating::{Entry, Occupant, Rated, Rating};
+use crash_measures::rating::{Criterion, Entry, Occupant, Rated, Rating, Region};
 
 use crate::base::Failure;
 use crate::judged::Direction;
@@ -30,6 +30,25 @@ pub struct Body<'a> {
     pub measures: &'a [Measure],
     /// Whether a caveat applies to a measure.
     pub spoils: &'a dyn Fn(&Measure) -> bool,
+    /// Why there is no run of it: its criteria are blank.
+    pub missing: Option<&'a str>,
+}
+
+impl Body<'_> {
+    fn entry(&self, region: &Region, criterion: &Criterion) -> Entry {
+        let measured = || Entry::from_measures(region.name, criterion.name, self.measures, self.spoils);
+        self.missing.map_or_else(measured, Entry::blank)
+    }
+}
+
+/// A place that is none of one body.
+pub struct Misplaced {
+    /// Its number among the places.
+    pub at: usize,
+    /// What was found.
+    pub found: String,
+    /// What was expected.
+    pub expected: String,
 }
 
 /// The occupants of a rating that a body may be: those of `place` (a part of their names), else those with its dummy,
@@ -42,21 +61,58 @@ pub fn choose(
     place: Option<&str>,
     dummy: &str,
 ) -> std::result::Result<Vec<&'static Occupant>, Failure> {
-    let words =
-        |text: &str| text.to_lowercase().replace(',', " ").split_whitespace().map(str::to_owned).collect::<Vec<_>>();
     if let Some(place) = place {
-        let wanted = words(place);
-        let fits = |own: &&Occupant| words(&own.place()).windows(wanted.len().max(1)).any(|part| part == wanted);
-        let found: Vec<_> = rating.occupants().filter(fits).collect();
-        if found.is_empty() {
-            let known: Vec<String> = rating.occupants().map(Occupant::place).collect();
-            let found = format!("--place {place}: no occupant of {} has this name", rating.name);
-            return Err(Failure::with_help(found, &format!("use a part of one of {}", known.join("; "))));
-        }
-        return Ok(found);
+        let found = named(rating, place);
+        return match found.is_empty() {
+            true => {
+                let Misplaced { found, expected, .. } = unknown(rating, 0);
+                Err(Failure::with_help(format!("--place {place}: {found}"), &format!("use {expected}")))
+            }
+            false => Ok(found),
+        };
     }
     let own: Vec<_> = rating.occupants().filter(|own| own.dummy.is_some_and(|known| known.name() == dummy)).collect();
     Ok(if own.is_empty() { rating.occupants().take(1).collect() } else { own })
+}
+
+/// The occupants of a rating whose names have these words one after the other.
+pub fn named(rating: &Rating, place: &str) -> Vec<&'static Occupant> {
+    let words =
+        |text: &str| text.to_lowercase().replace(',', " ").split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let wanted = words(place);
+    let fits = |own: &&Occupant| words(&own.place()).windows(wanted.len().max(1)).any(|part| part == wanted);
+    rating.occupants().filter(fits).collect()
+}
+
+/// A place that no occupant has.
+pub fn unknown(rating: &Rating, at: usize) -> Misplaced {
+    let known: Vec<String> = rating.occupants().map(Occupant::place).collect();
+    let found = format!("no occupant of {} has this name", rating.name);
+    Misplaced { at, found, expected: format!("a part of one of {}", known.join("; ")) }
+}
+
+/// The occupants that places name, each another one.
+///
+/// # Errors
+/// The first place that names no occupant, several, or one that has its body.
+pub fn distinct(rating: &Rating, places: &[String]) -> std::result::Result<Vec<&'static Occupant>, Misplaced> {
+    let mut chosen: Vec<&'static Occupant> = Vec::new();
+    for (at, place) in places.iter().enumerate() {
+        match &named(rating, place)[..] {
+            [] => return Err(unknown(rating, at)),
+            [only] if chosen.iter().all(|other| other.place() != only.place()) => chosen.push(only),
+            [only] => {
+                let found = format!("two bodies are {}", only.place());
+                return Err(Misplaced { at, found, expected: "a place of its own for each body".to_owned() });
+            }
+            several => {
+                let known: Vec<String> = several.iter().map(|own| own.place()).collect();
+                let found = format!("{} occupants have this name", known.len());
+                return Err(Misplaced { at, found, expected: format!("one of {}", known.join("; ")) });
+            }
+        }
+    }
+    Ok(chosen)
 }
 
 /// Rates a body as some occupants of a rating. Values that are given count before measures.
@@ -64,7 +120,7 @@ pub fn rate(rating: &'static Rating, chosen: &[&'static Occupant], body: &Body<'
     let is_chosen = |own: &Occupant| chosen.iter().any(|other| other.place() == own.place());
     rating.rate(is_chosen, |occupant, region, criterion| {
         let given = values.and_then(|values| values.entry(occupant, region, criterion));
-        given.unwrap_or_else(|| Entry::from_measures(region.name, criterion.name, body.measures, body.spoils))
+        given.unwrap_or_else(|| body.entry(region, criterion))
     })
 }
 
@@ -81,9 +137,7 @@ pub fn rate_together(
         |occupant, region, criterion| {
             let given = values.and_then(|values| values.entry(occupant, region, criterion));
             let body = body_of(occupant).and_then(|i| bodies.get(i));
-            let measured =
-                body.map(|body| Entry::from_measures(region.name, criterion.name, body.measures, body.spoils));
-            given.or(measured).unwrap_or_default()
+            given.or_else(|| body.map(|body| body.entry(region, criterion))).unwrap_or_default()
         },
     )
 }

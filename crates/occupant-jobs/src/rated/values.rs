@@ -46,8 +46,20 @@ impl Values {
     /// A file that cannot be read; columns, places, criteria and numbers that are not those of the rating; a criterion
     /// that stands twice.
     pub fn read(path: &Path, rating: &'static Rating) -> Result<Self, Failure> {
+        Values::of(path, measured::text(path)?, rating)
+    }
+
+    /// The same from the bytes of a file; `path` is its name.
+    ///
+    /// # Errors
+    /// As [`Values::read`].
+    pub fn from_bytes(path: &Path, bytes: Vec<u8>, rating: &'static Rating) -> Result<Self, Failure> {
+        Values::of(path, measured::text_from(path, bytes)?, rating)
+    }
+
+    fn of(path: &Path, text: String, rating: &'static Rating) -> Result<Self, Failure> {
         let mut sources = Sources::new();
-        let id = sources.add_named(path.display().to_string(), measured::text(path)?);
+        let id = sources.add_named(path.display().to_string(), text);
         let mut reader = Reader { sources: &sources, rating, values: Values::default(), problems: Diagnostics::new() };
         let all: Vec<Span> = lines(&sources, id).collect();
         reader.tables(sources.start_of(id), &all);

@@ -8,15 +8,15 @@ use placed_text::{Document, Node, Value};
 use crate::base::sha256;
 use crate::files::study_folder::{NamedBy, Text};
 
-/// SHA-256 of the contents of study, scenario and tables. Of a design whose first samples stay as they are when there are more,
-/// the number of samples does not count, nor does its table.
+/// SHA-256 of the contents of study, scenario and tables. The rating of the study does not count; of a design whose first
+/// samples stay as they are when there are more, the number of samples does not, nor does its table.
 pub fn digest(study: &Study, texts: &[(&Text, &[u8])]) -> String {
     let grows = fixed(&study.design).is_none();
     let mut all = String::new();
-    for (i, (text, bytes)) in texts.iter().enumerate() {
+    for (i, (text, bytes)) in texts.iter().filter(|(text, _)| text.by != NamedBy::Rating).enumerate() {
         let read = if i < 2 { Document::read_bytes(bytes, None, &text.name).ok() } else { None };
         let counts = match read {
-            Some(document) => contents_of(&document.root, i == 0 && grows),
+            Some(document) => contents_of(&document.root, left_out(i == 0, grows)),
             None if grows && is_table_of(&study.design, text) => String::new(),
             None => text.sha256.clone(),
         };
@@ -40,22 +40,31 @@ fn is_table_of(design: &Design, text: &Text) -> bool {
     matches!(design, Design::Table { file, .. } if text.by == NamedBy::Study && text.name == *file)
 }
 
-/// A tree as text, in the order written.
-fn contents_of(root: &Node, without_count: bool) -> String {
+/// A tree as text, in the order written, without the keys of some paths.
+fn contents_of(root: &Node, without: &[&str]) -> String {
     let mut to = String::new();
-    write(&root.value, "", without_count, &mut to);
+    write(&root.value, "", without, &mut to);
     to
 }
 
-/// Keys of the number of samples.
-const COUNTS: [&str; 2] = ["design.samples", "design.trajectories"];
+/// Keys of a study that decide on no sample, and those of the number of samples.
+const NOT_COUNTED: [&str; 3] = ["rating", "design.samples", "design.trajectories"];
 
-fn write(value: &Value, path: &str, without_count: bool, to: &mut String) {
+/// What does not count of a study, or of another text.
+fn left_out(is_study: bool, grows: bool) -> &'static [&'static str] {
+    match (is_study, grows) {
+        (true, true) => &NOT_COUNTED,
+        (true, false) => &NOT_COUNTED[..1],
+        (false, _) => &[],
+    }
+}
+
+fn write(value: &Value, path: &str, without: &[&str], to: &mut String) {
     match value {
         Value::Array(items) => {
             to.push('[');
             items.iter().for_each(|item| {
-                write(&item.value, "[]", without_count, to);
+                write(&item.value, "[]", without, to);
                 to.push(',');
             });
             to.push(']');
@@ -64,12 +73,12 @@ fn write(value: &Value, path: &str, without_count: bool, to: &mut String) {
             to.push('{');
             for (key, entry) in table.iter() {
                 let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-                if without_count && COUNTS.contains(&path.as_str()) {
+                if without.contains(&path.as_str()) {
                     continue;
                 }
                 // into a text nothing fails
                 let _never = write!(to, "{key:?}:");
-                write_entry(&entry.node, &path, without_count, to);
+                write_entry(&entry.node, &path, without, to);
             }
             to.push('}');
         }
@@ -77,8 +86,8 @@ fn write(value: &Value, path: &str, without_count: bool, to: &mut String) {
     }
 }
 
-fn write_entry(node: &Node, path: &str, without_count: bool, to: &mut String) {
-    write(&node.value, path, without_count, to);
+fn write_entry(node: &Node, path: &str, without: &[&str], to: &mut String) {
+    write(&node.value, path, without, to);
     to.push(',');
 }
 
@@ -86,8 +95,8 @@ fn write_entry(node: &Node, path: &str, without_count: bool, to: &mut String) {
 mod tests {
     use super::*;
 
-    fn contents(text: &str, without_count: bool) -> String {
-        contents_of(&Document::read_bytes(text.as_bytes(), None, "a").unwrap().root, without_count)
+    fn contents(text: &str, grows: bool) -> String {
+        contents_of(&Document::read_bytes(text.as_bytes(), None, "a").unwrap().root, left_out(true, grows))
     }
 
     #[test]
@@ -105,6 +114,10 @@ mod tests {
         // a number of the same name elsewhere counts
         let elsewhere = |n: u64| format!("{text}samples = {n}\n");
         assert_ne!(contents(&elsewhere(1), true), contents(&elsewhere(2), true));
+        // what rates the runs decides on none
+        let rated = format!("{text}[rating]\nname = \"fmvss-208\"\n");
+        assert_eq!(contents(text, false), contents(&rated, false));
+        assert_ne!(contents(text, false), contents(&rated.replace("[rating]", "[other]"), false));
     }
 
     #[test]

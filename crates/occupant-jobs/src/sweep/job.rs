@@ -7,10 +7,11 @@ use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
 use super::progress::Progress;
+use super::rating::rate;
 use super::simulation::is_kept;
 use super::words::{indices, judged, tell, tell_damaged, warn_unlocked};
 use super::{Plan, Simulation, kept, parts, results};
-use crate::base::{Done, Failure, Interrupt, Show, Units, quoted, say};
+use crate::base::{Done, Failure, Interrupt, Show, Units, note, quoted, say};
 use crate::files::study_folder::checksums::sample_of;
 use crate::files::study_folder::{Block, Checksums, Finished, Folder, Held, Journal, JournalWriter, Problem};
 
@@ -178,22 +179,23 @@ impl Sweep {
         self.interrupt.refuse("all samples are finished; run the same command again to write the table")
     }
 
-    /// Writes the tables and the worst runs.
+    /// Writes the tables, the worst runs and the rating.
     fn finish(&self, journal: &Journal, progress: &Progress, sums: Checksums) -> Result<(Done, String), Failure> {
-        let results = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
+        let place = (&self.folder, &sums);
+        let mut results = results::write(place, journal, &self.plan.manifest, &self.keep, self.csv)?;
         self.write_kept(journal, &sums, results.worst.iter().copied())?;
+        let run_of = |index| Some(self.folder.run(index)).filter(|path| sums.holds(path));
+        let elapsed_s = progress.elapsed_s();
+        let rated = rate(&self.plan, place, journal, &run_of, (&self.engine, &self.interrupt))?;
+        results.files.extend(rated.files);
         sums.close()?;
         self.folder.clear_journals()?;
         if self.show.quiet {
             return Ok((judged(&results.census), String::new()));
         }
-        let work = format!(
-            "{} samples in {:.1} s, {} threads",
-            progress.computed,
-            progress.elapsed_s(),
-            self.engine.threads()
-        );
+        rated.notes.iter().for_each(note);
+        let work = format!("{} samples in {:.1} s, {} threads", progress.computed, elapsed_s, self.engine.threads());
         let next = format!("occupant study report {}", quoted(self.folder.path.display()));
-        Ok((judged(&results.census), tell(&results, Some(work), &next, self.units)))
+        Ok((judged(&results.census), tell(&results, Some(work), &next, self.units) + &rated.text))
     }
 }

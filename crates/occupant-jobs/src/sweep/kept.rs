@@ -24,7 +24,7 @@ pub fn parse(text: &str) -> Option<Keep> {
 /// Runs to keep, as given or else those of the study.
 ///
 /// # Errors
-/// Unknown words, samples and measures.
+/// Unknown words, samples and measures; not all runs if the study has a rating.
 pub fn chosen(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     let keep = match given {
         Some(text) => parse(text).ok_or_else(|| {
@@ -57,6 +57,7 @@ pub fn chosen(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
         }
         Keep::All | Keep::None => {}
     }
+    plan.rating.iter().try_for_each(|rates| rates.refuse_unkept(&keep, given))?;
     Ok(keep)
 }
 

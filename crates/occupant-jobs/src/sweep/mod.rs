@@ -1,7 +1,7 @@
 //! Sweeps: every sample of a study run, one row each, on all cores, to be resumed after any interruption.
 //!
 //! ```text
-//! study ─ Plan ─ engine (sample → model → run → figures → row) ─ journal ─ parts ─ table, census, worst, stable
+//! study ─ Plan ─ engine (sample → model → run → figures → row) ─ journal ─ parts ─ table, census, worst, stable, rating
 //! ```
 //!
 //! A finished sample is a row in the journal at once. When all of a range are there, the journal becomes a part of the table; the
@@ -14,6 +14,7 @@ pub mod kept;
 mod parts;
 pub mod plan;
 mod progress;
+pub mod rating;
 mod rehearsal;
 pub mod results;
 pub mod simulation;

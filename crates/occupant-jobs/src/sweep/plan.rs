@@ -12,6 +12,7 @@ use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
 
 use super::identity::{digest, fixed};
+use super::rating::Rates;
 use crate::base::{Failure, file_name};
 use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused, retitle};
 use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
@@ -36,6 +37,8 @@ pub struct Plan {
     changes: Vec<String>,
     /// Files referred to by the scenarios of the samples.
     pub tables: Tables,
+    /// What rates the bodies of its runs.
+    pub rating: Option<Rates>,
     /// Manifest of the sweep's folder.
     pub manifest: Manifest,
     /// Bytes of the manifest's texts.
@@ -89,11 +92,15 @@ impl Plan {
             bytes,
             changes,
             tables: Tables::default(),
+            rating: None,
             manifest,
             texts: Vec::new(),
         };
         plan.take_tables(texts);
         plan.manifest.columns = plan.columns()?;
+        let model = text.section.rating.as_ref().and_then(|_| plan.base_model());
+        plan.rating = Rates::of(&text, texts, name, (model, plan.study.len()))?;
+        plan.manifest.rating = plan.rating.as_ref().map_or(String::new(), |rates| rates.digest.clone());
         (plan.manifest.texts, plan.texts) = texts.all();
         let texts: Vec<_> = plan.manifest.texts.iter().zip(plan.texts.iter().map(Vec::as_slice)).collect();
         plan.manifest.study = digest(&plan.study, &texts);

@@ -53,6 +53,7 @@ impl Sweep {
             ("table", format!("about {megabytes:.1} MB, plus the whole runs that are kept")),
             ("folder", format!("{}; nothing was written", self.folder.path.display())),
         ];
+        lines.extend(self.plan.rating.as_ref().map(|rates| ("rating", rates.words())));
         lines.extend(indices(&self.plan.study).map(|note| ("indices", note)));
         let first = self.first(samples.start..samples.end.min(samples.start + SHOWN));
         let refused =

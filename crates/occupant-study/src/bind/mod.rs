@@ -183,6 +183,7 @@ impl<'a> Binder<'a> {
             ("fit.tests", fit.map_or(0, |fit| fit.tests.len())),
             ("optimise.goals", optimise.and_then(|of| of.goals.as_ref()).map_or(0, Vec::len)),
             ("optimise.constraints", optimise.map_or(0, |of| of.constraints.len())),
+            ("rating.places", section.rating.as_ref().map_or(0, |rating| rating.places.len())),
         ];
         for (at, entries) in lists.into_iter().filter(|(_, entries)| *entries > MOST_ENTRIES) {
             self.error(at, format!("{entries} entries"), format!("at most {MOST_ENTRIES}"), None);

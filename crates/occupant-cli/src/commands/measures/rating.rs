@@ -6,13 +6,11 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use crash_measures::rating::{RATINGS, Rating};
-use occupant_jobs::rated::bodies::{Item, One, different, of_runs, rate_all};
-use occupant_jobs::rated::{Answer, Values, rate_values, text, write};
-use placed_text::shown;
+use occupant_jobs::rated::bodies::{Item, One, answer, notes, of_runs, rate_all, tables};
+use occupant_jobs::rated::{Values, rate_values, write};
 
 use super::{Args, Judged};
 use crate::base::{Done, Failure, json, note, print, refuse_input, say};
-use crate::commands::tables::summary::Marks;
 
 /// Ratings by name, each with its full name in help.
 pub(super) fn names() -> impl TypedValueParser<Value = &'static Rating> {
@@ -52,48 +50,35 @@ pub(super) fn tests(
     all: &[(&str, &[Measure], &[String])],
 ) -> Result<Done, Failure> {
     let items = all.iter().map(|(file, measures, notes)| Item {
-        file,
-        occupant: String::new(),
-        notes,
-        caveats: &[],
+        file: (*file).to_owned(),
+        notes: notes.to_vec(),
         dummy: dummy.name(),
-        is_dummy: None,
-        direction: None,
         measures: measures.to_vec(),
+        ..Item::default()
     });
     rate(args, rating, &items.collect::<Vec<_>>())
 }
 
-fn rate(args: &Args, rating: &'static Rating, items: &[Item<'_>]) -> Result<Done, Failure> {
+fn rate(args: &Args, rating: &'static Rating, items: &[Item]) -> Result<Done, Failure> {
     let values = args.values.as_ref().map(|file| Values::read(file, rating)).transpose()?;
     show(args, rating, &rate_all(rating, &args.place, values.as_ref(), items)?, items)
 }
 
-fn show(args: &Args, rating: &'static Rating, all: &[One], items: &[Item<'_>]) -> Result<Done, Failure> {
+fn show(args: &Args, rating: &'static Rating, all: &[One], items: &[Item]) -> Result<Done, Failure> {
     if let Some(file) = &args.output {
         args.runs.iter().chain(&args.values).try_for_each(|input| refuse_input(file, input))?;
     }
     let is_unmet = all.iter().any(|one| one.rated.is_unmet());
     if args.json {
-        print(&json(&Answer::new(rating, all.iter().map(One::told).collect()))?)?;
+        print(&json(&answer(rating, all))?)?;
     } else {
-        let several = all.len() > 1;
-        let said = |one: &One, words: &String| if several { format!("{}: {words}", one.name()) } else { words.clone() };
-        all.iter().flat_map(|one| one.notes.iter().map(move |words| said(one, words))).for_each(|words| note(&words));
-        let head = format!("{}\n{}\n{}\n", rating.title, rating.source, rating.remark);
-        let body = |one: &One| format!("\n{}\n{}{}", shown(&one.name()), explained(one, items), text(&one.rated));
-        print(&all.iter().map(body).fold(head, |all, body| all + &body))?;
+        notes(all).iter().for_each(note);
+        print(&tables(rating, all, items))?;
     }
     if let Some(file) = &args.output {
         filled(file, args.force, all)?;
     }
     Ok(if is_unmet && args.strict { Done::Unwell } else { Done::Well })
-}
-
-/// What explains the marks of a result.
-fn explained(one: &One, items: &[Item<'_>]) -> String {
-    let own = one.items.iter().filter_map(|i| items.get(*i));
-    different(own, |item| Marks::of(item.caveats).explained().unwrap_or_default()).concat()
 }
 
 /// Writes values in the layout of the template.

@@ -6,16 +6,17 @@ use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Done, Failure, UnitsArg, print, quoted};
+use crate::base::{Done, Failure, UnitsArg, note, print, quoted};
 use crate::commands::flags::sweep::engine;
-use occupant_jobs::files::study_folder::checksums::Checksums;
+use occupant_jobs::base::Interrupt;
+use occupant_jobs::files::study_folder::checksums::{Checksums, sample_of};
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::journal::Journal;
 use occupant_jobs::files::study_folder::problem::Problem;
 use occupant_jobs::sweep::results::refuse_gaps;
 use occupant_jobs::sweep::stored::{MadeBy, Stored, open_with};
 use occupant_jobs::sweep::words::{judged, tell, tell_damaged};
-use occupant_jobs::sweep::{kept, results};
+use occupant_jobs::sweep::{kept, rating, results};
 
 /// Merge the parts of a sweep into one table
 ///
@@ -68,14 +69,32 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     journal.runs_in(&target).for_each(|(name, sum)| sums.learn(name, sum, true));
     tell_damaged(&sums.damaged());
     let runs = kept::among(&sums.damaged(), &target, 0..manifest.samples);
-    let found = results::write((&target, &sums), &journal, &manifest, &keep, args.csv || plan.study.csv)?;
-    let (wanted, engine) = (found.worst.iter().copied().chain(runs), engine(args.threads, Kernel::best())?);
+    let mut found = results::write((&target, &sums), &journal, &manifest, &keep, args.csv || plan.study.csv)?;
+    let others = if plan.rating.is_some() { others(&args.folders, &target, &journal)? } else { Vec::new() };
+    let places = || std::iter::once((&target, &sums)).chain(others.iter().map(|(folder, sums)| (folder, sums)));
+    let run_of = |index| places().find_map(|(at, sums)| Some(at.run(index)).filter(|path| sums.holds(path)));
+    let lacking = rating::lacking(&plan, &journal, &run_of)?;
+    let wanted = found.worst.iter().copied().chain(runs).chain(lacking);
+    let engine = engine(args.threads, Kernel::best())?;
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
+    let rated = rating::rate(&plan, (&target, &sums), &journal, &run_of, (&engine, &Interrupt::default()))?;
+    found.files.extend(rated.files);
     sums.close()?;
     target.clear_journals_if_alone()?;
     let next = format!("occupant study report {}", quoted(target.path.display()));
     if !args.quiet {
-        print(&tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))))?;
+        rated.notes.iter().for_each(note);
+        print(&(tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))) + &rated.text))?;
     }
     Ok(judged(&found.census))
+}
+
+/// The other folders, with the hashes of their whole runs.
+fn others(folders: &[PathBuf], target: &Folder, journal: &Journal) -> Result<Vec<(Folder, Checksums)>, Failure> {
+    let opened = |folder: Folder| {
+        let sums = Checksums::open(&folder.path, |name| sample_of(name).is_some())?;
+        journal.runs_in(&folder).for_each(|(name, sum)| sums.learn(name, sum, true));
+        Ok((folder, sums))
+    };
+    folders.iter().filter(|path| **path != target.path).map(|path| opened(Folder::at(path))).collect()
 }

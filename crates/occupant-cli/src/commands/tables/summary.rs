@@ -13,6 +13,7 @@ use super::{elements, measures};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, number, table, without_zeros};
 use crate::base::{Units, quoted};
+use occupant_jobs::base::describe::caveat;
 use occupant_jobs::run::recording::Written;
 
 /// Marks of results that should not be quoted: `!` for those with a caveat, a star for those not stable in an ensemble.
@@ -60,8 +61,7 @@ impl<'a> Marks<'a> {
     pub(crate) fn explained(&self) -> Option<String> {
         let star = self.unstable.iter().filter(|unstable| !unstable.is_empty());
         let star = star.map(|_| "* NOT STABLE under small changes, see below\n".to_owned());
-        let line = |caveat: &Caveat| format!("{} {}\n", if caveat.is_note() { "note:" } else { "!" }, caveat.text);
-        let lines: Vec<_> = self.caveats.iter().map(line).chain(star).collect();
+        let lines: Vec<_> = self.caveats.iter().map(caveat).chain(star).collect();
         (!lines.is_empty()).then(|| lines.concat())
     }
 }

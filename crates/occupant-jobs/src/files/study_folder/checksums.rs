@@ -14,7 +14,7 @@ use std::sync::{Mutex, MutexGuard};
 use super::folder::{JOURNAL, PARTS};
 use super::problem::Problem;
 use crate::base::names::stays_within;
-use crate::base::{Existing, sha256_of_file, write_whole};
+use crate::base::{Existing, remove_if_there, sha256_of_file, write_whole};
 
 /// Number of characters of a checksum.
 const SUM: usize = 64;
@@ -151,6 +151,15 @@ impl Checksums {
         }
         self.listed().remove(&self.name(path));
         Ok(())
+    }
+
+    /// Removes a file that is listed.
+    ///
+    /// # Errors
+    /// An error of the operating system.
+    pub fn remove(&self, path: &Path) -> Result<(), Problem> {
+        let listed = self.listed().remove(&self.name(path));
+        Ok(listed.map_or(Ok(()), |_| remove_if_there(path))?)
     }
 
     /// Rewrites the checksum file, one line per existing file.

@@ -7,6 +7,7 @@
 //! journal/*.lock           locked while a process works on that range
 //! parts/FIRST-LAST.parquet the table of a range that is finished, for a part of the study
 //! results.parquet          the table, when all samples are finished
+//! rating.xlsx              the rating of its runs, and rating.json
 //! SHA256SUMS               what the files of results were when they were complete
 //! runs/000123.mcap         whole runs that are kept
 //! ```
@@ -37,6 +38,8 @@ pub(super) const JOURNAL: &str = "journal";
 /// Folder of the parts of the table.
 pub(super) const PARTS: &str = "parts";
 const RUNS: &str = "runs";
+/// Rating of the runs: the filled template, and what `measures --json` prints.
+const RATING: [&str; 2] = ["rating.xlsx", "rating.json"];
 
 /// Kind of a result folder.
 #[derive(Debug)]
@@ -53,7 +56,16 @@ pub struct Holds {
 pub const SWEEP: &Holds = &Holds {
     word: "sweep",
     manifest: "sweep.json",
-    results: &["results.parquet", "results.damaged", "results.csv", "columns.csv", "ensemble.parquet", "ensemble.csv"],
+    results: &[
+        "results.parquet",
+        "results.damaged",
+        "results.csv",
+        "columns.csv",
+        "ensemble.parquet",
+        "ensemble.csv",
+        RATING[0],
+        RATING[1],
+    ],
     folders: &[(RUNS, ".mcap"), (PARTS, ".parquet")],
 };
 const FIT: &Holds = &Holds {
@@ -146,6 +158,11 @@ impl Folder {
     /// Names and units of the columns, beside the CSV table.
     pub fn columns(&self) -> PathBuf {
         self.path.join("columns.csv")
+    }
+
+    /// The rating of the runs: the filled template, and as JSON.
+    pub fn rating(&self) -> [PathBuf; 2] {
+        RATING.map(|name| self.path.join(name))
     }
 
     /// The folder of the kept runs.
@@ -249,12 +266,13 @@ impl Folder {
 
     /// Whether this study begins with the samples that are there: it has as many or more, and so have its tables lines.
     fn goes_on(&self, there: &Manifest, here: &Manifest, texts: &[Vec<u8>]) -> bool {
-        let pairs = there.texts.iter().zip(here.texts.iter().zip(texts)).skip(2);
+        // those of the rating stand last
+        let pairs = there.tables().zip(here.tables().zip(texts.iter().skip(2)));
         let begins = |(old, (new, bytes)): (&Text, (&Text, &Vec<u8>))| {
             let old = if old.sha256 == new.sha256 { Some(bytes.clone()) } else { self.copy_of(old).ok() };
             old.is_some_and(|old| bytes.starts_with(&old) && (old.ends_with(b"\n") || old.len() == bytes.len()))
         };
-        there.samples <= here.samples && there.texts.len() == here.texts.len() && { pairs }.all(begins)
+        there.samples <= here.samples && there.tables().count() == here.tables().count() && { pairs }.all(begins)
     }
 
     /// Manifest and copies that are not as they were written for `there`.
@@ -288,7 +306,7 @@ impl Folder {
     /// # Errors
     /// The existing manifest.
     pub fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
-        if self.manifest()?.is_some_and(|there| there.is_of(manifest)) {
+        if self.manifest()?.is_some_and(|there| there.is_of_rows(manifest)) {
             return Ok(());
         }
         let mut results = self.files().into_iter().chain([self.runs(), self.manifest_path()]);

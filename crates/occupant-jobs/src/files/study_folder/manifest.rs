@@ -24,6 +24,9 @@ pub struct Manifest {
     /// Digest of all that decides on the first samples; empty if that is the manifest as it is.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub study: String,
+    /// Digest of the rating of its runs, which decides on no row; empty without one.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub rating: String,
     /// Title of the study.
     pub title: String,
     /// Number of samples.
@@ -83,6 +86,7 @@ impl Manifest {
             program,
             build: build().to_owned(),
             study: String::new(),
+            rating: String::new(),
             title,
             samples,
             overrides,
@@ -116,13 +120,18 @@ impl Manifest {
     }
 
     /// Whether both are of the same rows: one study, as many samples, the same tables.
-    pub fn is_of(&self, other: &Manifest) -> bool {
+    pub fn is_of_rows(&self, other: &Manifest) -> bool {
         self.samples == other.samples && self.is_of_study(other) && self.tables().eq(other.tables())
     }
 
+    /// Whether both are of the same rows, rated in the same way.
+    pub fn is_of(&self, other: &Manifest) -> bool {
+        self.rating == other.rating && self.is_of_rows(other)
+    }
+
     /// Texts besides study and scenario, of which every byte counts.
-    fn tables(&self) -> impl Iterator<Item = &Text> {
-        self.texts.iter().skip(2)
+    pub fn tables(&self) -> impl Iterator<Item = &Text> {
+        self.texts.iter().skip(2).filter(|text| text.by != NamedBy::Rating)
     }
 
     /// Index of a measure's column.

@@ -23,6 +23,8 @@ pub enum NamedBy {
     Scenario,
     /// A test given on the command line.
     CommandLineTest,
+    /// The study, as values of its rating, which decide on no sample.
+    Rating,
 }
 
 /// Source of texts.
@@ -97,7 +99,7 @@ impl Texts {
         match by {
             NamedBy::CommandLine => study.to_owned(),
             NamedBy::CommandLineTest => PathBuf::from(name),
-            NamedBy::Study => beside.join(name),
+            NamedBy::Study | NamedBy::Rating => beside.join(name),
             NamedBy::Scenario => self.base.borrow().join(name),
             NamedBy::StudyAsBase => {
                 let path = beside.join(name);
