@@ -202,16 +202,24 @@ impl Fine {
         SIGNALS..self.side_part().start
     }
 
-    /// Index and readings of the samples since the last output, of a body among those read.
-    pub(crate) fn of(&self, place: usize) -> impl Iterator<Item = &[f64]> {
-        let each = self.each;
-        self.samples.chunks_exact(each * self.bodies.len()).map(move |all| &all[each * place..][..each])
+    /// Number of samples since the last output.
+    pub(crate) fn count(&self) -> usize {
+        self.samples.len() / (self.each * self.bodies.len())
+    }
+
+    /// Adds number `at` of each sample since the last output to `values`, of a body among those read.
+    pub(crate) fn push_column(&self, place: usize, at: usize, values: &mut Vec<f64>) {
+        let mut next = self.each * place + at;
+        // no iterator: each asks for its length, a division
+        while let Some(number) = self.samples.get(next) {
+            values.push(*number);
+            next += self.each * self.bodies.len();
+        }
     }
 
     /// Time of the first sample since the last output, s.
     pub(crate) fn first_s(&self) -> f64 {
-        let count = self.samples.len() / (self.each * self.bodies.len());
-        self.start_s + (self.next - count) as f64 * self.interval_s
+        self.start_s + (self.next - self.count()) as f64 * self.interval_s
     }
 
     /// Samples since the last output, one after another, as in a file.

@@ -49,11 +49,11 @@ impl Watched {
         if self.signals.is_empty() {
             (self.signals.start_s, self.signals.interval_s) = (fine.first_s(), fine.interval_s);
         }
-        let column = |values: &mut Vec<f64>, at: usize| values.extend(fine.of(place).map(|sample| sample[at]));
+        let count = fine.count();
         for (n, values) in self.signals.all_mut().enumerate() {
             match self.has.get(n / 3) {
-                Some(false) => values.extend(fine.of(place).map(|_| f64::NAN)),
-                _ => column(values, n),
+                Some(false) => values.extend(std::iter::repeat_n(f64::NAN, count)),
+                _ => fine.push_column(place, n, values),
             }
         }
         let parts: [(&[Special], _); 4] = [
@@ -64,7 +64,7 @@ impl Watched {
         ];
         for (which, at) in parts.into_iter().flat_map(|(all, part)| all.iter().zip(part)) {
             if let Some(values) = self.signals.special.get_mut(which) {
-                column(values, at);
+                fine.push_column(place, at, values);
             }
         }
     }

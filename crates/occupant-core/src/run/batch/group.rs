@@ -23,12 +23,14 @@ pub(super) struct Group<L: Machine> {
     pub(super) bench: Option<Box<Bench<L>>>,
     /// Boxed, as they change hands at every step.
     pub(super) places: Vec<Option<Box<Place>>>,
+    /// Runs that did not fit the others since the last that did.
+    unlike: usize,
 }
 
 impl<L: Machine> Group<L> {
     /// No runs yet.
     pub(super) fn new(kernel: Kernel) -> Self {
-        Group { kernel, bench: None, places: (0..L::COUNT).map(|_| None).collect() }
+        Group { kernel, bench: None, places: (0..L::COUNT).map(|_| None).collect(), unlike: 0 }
     }
 
     /// Runs all `jobs`.
@@ -46,7 +48,7 @@ impl<L: Machine> Group<L> {
             match self.places.iter().flatten().count() {
                 0 => return ControlFlow::Continue(()),
                 // a step of all lanes takes longer than one of a run alone
-                1 => self.finish_the_last(jobs)?,
+                1 => self.finish_alone(jobs)?,
                 _ if self.is_controlled() => self.try_steps(jobs)?,
                 _ => self.step(jobs)?,
             }
@@ -57,12 +59,29 @@ impl<L: Machine> Group<L> {
     fn seat(&mut self, i: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let is_controlled = Control::of(&model.setup().integrator).is_some();
         let is_alike = self.places.iter().flatten().all(|place| place.control.is_some() == is_controlled);
-        if model.setup().path.is_live() || !is_alike || !self.make_room(i, &model) {
+        if model.setup().path.is_live() || !is_alike || !self.take_in(i, &model, jobs)? {
             return run_alone(i, model, jobs);
         }
         let mut place = Box::new(Place::new(model));
         let next = place.begin(jobs.recorder(i));
         if is_controlled { self.begin_steps(i, place, next, jobs) } else { self.go_on_or_end(i, place, next, jobs) }
+    }
+
+    /// Makes room for `model` in lane `i`; false if it does not fit the others. Of two structures, that of which more runs
+    /// come keeps the lanes: an odd run does not make all after it run alone.
+    fn take_in(&mut self, i: usize, model: &Model, jobs: &mut dyn Jobs) -> ControlFlow<(), bool> {
+        if !self.make_room(i, model) {
+            self.unlike += 1;
+            if self.unlike < self.places.iter().flatten().count() {
+                return ControlFlow::Continue(false);
+            }
+            self.finish_alone(jobs)?;
+            if !self.make_room(i, model) {
+                return ControlFlow::Continue(false);
+            }
+        }
+        self.unlike = 0;
+        ControlFlow::Continue(true)
     }
 
     /// Whether the runs here are under error control.
@@ -271,8 +290,8 @@ impl<L: Machine> Group<L> {
         lanes.each(&mut run.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
     }
 
-    /// Finishes the only remaining run with the scalar kernel.
-    fn finish_the_last(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
+    /// Finishes all runs with the scalar kernel.
+    fn finish_alone(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         for i in 0..L::COUNT {
             let Some(mut place) = self.places[i].take() else { continue };
             if place.control.is_some() {

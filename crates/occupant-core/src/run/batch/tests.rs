@@ -76,15 +76,31 @@ fn bodies_with_closed_forms_and_without_do_not_run_side_by_side() {
     assert_eq!(refused, Err(crate::kernel::OTHER_TREE));
 }
 
-fn have_the_bits_of_each_alone(models: Vec<Model>) {
+/// A run of another structure, first or between, is the only one that is computed alone.
+#[test]
+fn an_odd_run_does_not_make_those_after_it_run_alone() {
+    let odd = || model(18.0).without_closed_forms();
+    let all = |first: Option<Model>, between: Option<Model>| {
+        let like = |mph: f64| model(mph);
+        let few = [12.0, 16.0, 20.0].map(like).into_iter();
+        first.into_iter().chain(few).chain(between).chain([24.0, 28.0].map(like)).collect::<Vec<_>>()
+    };
+    assert_eq!(have_the_bits_of_each_alone(all(None, None)), 0);
+    assert_eq!(have_the_bits_of_each_alone(all(Some(odd()), None)), 0);
+    assert_eq!(have_the_bits_of_each_alone(all(None, Some(odd()))), 1);
+}
+
+/// Returns how many did not fit the others.
+fn have_the_bits_of_each_alone(models: Vec<Model>) -> usize {
     let mut texts = vec![Vec::new(); models.len()];
     let jobs = models.iter().zip(&mut texts).map(|(model, texts)| Job {
         tag: model.setup().time.end_s,
         model: model.clone(),
         recorder: keep(texts),
     });
-    let mut outcomes = Vec::new();
+    let (mut outcomes, mut alone) = (Vec::new(), 0);
     let on_end = |ended: Ended<f64, _>| {
+        alone += usize::from(ended.kernel == Kernel::Scalar);
         outcomes.push((ended.tag, ended.outcome.unwrap()));
         ControlFlow::Continue(())
     };
@@ -101,4 +117,5 @@ fn have_the_bits_of_each_alone(models: Vec<Model>) {
         let end_s = model.setup().time.end_s;
         assert!(outcomes.contains(&(end_s, outcome)));
     }
+    alone
 }
