@@ -16,6 +16,8 @@ const DIFFERENCE_M: f64 = 1e-6;
 pub(super) const REST: f64 = 1e-8;
 /// Largest number of steps.
 const MOST_STEPS: usize = 1000;
+/// Motion of every freedom below which a step gains nothing, m: the load jumps there, or has reached its last digits.
+const NOWHERE_M: f64 = 1e-12;
 
 /// A body that can be moved by its freedoms, metres or angles times a lever.
 pub(super) trait Movable {
@@ -55,14 +57,17 @@ pub(super) fn descend(body: &mut impl Movable, from: &State<f64>, weight_n: f64)
             let tried = downhill(&hessian, &g, shift * scale).map(|step| {
                 let next = body.moved(&state, &step);
                 let slope = body.gradient(&next);
-                (next, (&g + &slope).dot(&step) < 0.0, slope)
+                (next, (&g + &slope).dot(&step) < 0.0, slope, step.amax())
             });
-            let found = tried.filter(|(_, falls, _)| *falls);
+            let found = tried.filter(|(_, falls, ..)| *falls);
             shift = if found.is_some() { (shift * 0.2).max(1e-12) } else { shift * 4.0 };
             found
         });
-        let Some((next, _, slope)) = taken.take(40).flatten().next() else { break };
+        let Some((next, _, slope, moved_m)) = taken.take(40).flatten().next() else { break };
         (state, g) = (next, slope);
+        if moved_m < NOWHERE_M {
+            break;
+        }
     }
     (state, g)
 }

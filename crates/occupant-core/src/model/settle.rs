@@ -40,6 +40,10 @@ pub(super) const LEVER_M: f64 = 0.3;
 const ITERATIONS: usize = 200;
 /// Fraction of the load left by a step above which the slopes are computed anew.
 const POOR: f64 = 0.5;
+/// Displacement for difference quotients, m.
+const DIFFERENCE_M: f64 = 1e-6;
+/// Fraction of the load left by a step within [`DIFFERENCE_M`] above which the load jumps there: nothing is gained.
+const STUCK: f64 = 0.999;
 /// Largest number of element evaluations in search of rest: about a second's work. The remaining load is reported as
 /// usual.
 pub(super) const MOST_LOOKS: usize = 2_000_000;
@@ -202,6 +206,9 @@ fn balanced(
             let corrected = j + (next - r - j * step) * step.transpose() / step.norm_squared();
             (known, is_fresh) = ((gain < POOR).then_some(corrected), false);
             (x, r, damping) = (x + step, next, (damping * 0.1).max(1e-12));
+            if gain > STUCK && step.norm() < DIFFERENCE_M {
+                break;
+            }
         } else if is_fresh {
             if damping > 1e9 {
                 break;
@@ -441,12 +448,14 @@ fn slopes(
     r: &Vector6<f64>,
     load: &mut impl FnMut(&Vector6<f64>) -> Option<Vector6<f64>>,
 ) -> Option<Matrix6<f64>> {
-    let h = 1e-6;
     let mut j = Matrix6::zeros();
     for i in 0..6 {
         let mut beside = *x;
-        beside[i] += h;
-        j.set_column(i, &((load(&beside)? - r) / h));
+        beside[i] += DIFFERENCE_M;
+        j.set_column(i, &((load(&beside)? - r) / DIFFERENCE_M));
     }
     Some(j)
 }
+
+#[cfg(test)]
+mod tests;
