@@ -118,7 +118,9 @@ fn a_sweep_is_rehearsed_without_a_file() {
     let folder = folder_with(STUDY);
     let here = folder.path();
     let told = done(here, &["sweep", "study.toml", "--dry-run"]);
-    for words in ["12 of", "one sample took", "nothing was written", "damping", "speed"] {
+    for words in
+        ["12 of", "for each sample", "12 tried, spread over the study", "nothing was written", "damping", "speed"]
+    {
         assert!(told.contains(words), "{told}");
     }
     assert_eq!(fs::read_dir(here).unwrap().count(), 2, "the scenario and the study");

@@ -337,3 +337,31 @@ fn wrong_studies_are_refused_before_anything_is_run() {
         assert!(!folder.path().join("out").exists(), "{study}");
     }
 }
+
+/// Δv at most half of the car's speed v: the head is (5 m/s − v)·t + Δv·(t − T/2) ahead, most at v = 2 m/s, Δv = 1 m/s, T = 10 ms.
+#[test]
+fn candidates_keep_the_constraints_between_parameters_and_the_optimum_lies_on_one() {
+    let speed = "[[parameters]]\nname = \"v\"\npath = \"path.speed\"\nrange = { from = \"2 m/s\", to = \"6 m/s\" }\n";
+    let constraint = "[[constraints]]\nsum = { dv = 1, v = -0.5 }\nmax = 0\n";
+    let study = OF_FREE.replace("[optimise]", &format!("{speed}{constraint}[optimise]"));
+    let folder = free(&(study + "maximise = \"head_excursion.forward\"\nallow_caveats = [\"*\"]\n"));
+    let at = folder.path();
+    let output = answer(at, &["optimise", "study.toml", "-o", "out"]);
+    assert!(output.status.success(), "{}", err(&output));
+    // the base, 2 m/s of 5, keeps it
+    assert!(!err(&output).contains("breaks a constraint"), "{}", err(&output));
+    let found = found(at, "out");
+    let [dv, _, v] = [0, 1, 2].map(|i| number(&found["parameters"][i]["value"]));
+    assert!((dv - 1.0).abs() < 0.02 && (v - 2.0).abs() < 0.02, "{dv} {v}");
+    let history = fs::read_to_string(at.join("out/history.csv")).unwrap();
+    let head: Vec<&str> = history.lines().next().unwrap().split(',').collect();
+    let at = ["input.dv", "input.v"].map(|name| head.iter().position(|column| *column == name).unwrap());
+    let mut on_edge = 0;
+    for line in history.lines().skip(2) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let [dv, v] = at.map(|at| cells[at].parse::<f64>().unwrap());
+        assert!(dv <= 0.5 * v * (1.0 + 1e-8), "{line}");
+        on_edge += usize::from(dv > 0.4999 * v);
+    }
+    assert!(on_edge > 10, "{on_edge}");
+}

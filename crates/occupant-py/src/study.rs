@@ -382,7 +382,7 @@ impl Study {
         let folder = folder.or_else(|| passing.as_ref().map(|own| own.path().join("search"))).unwrap_or_default();
         let found = work(py, progress, |interrupt| {
             let engine = engine(threads)?;
-            search(&folder, &Work { engine: &engine, interrupt, show: SHOW, restart })
+            search(&folder, &Work { engine: &engine, interrupt, show: SHOW, restart, wait: false })
         });
         json_of(&found?, py)
     }
@@ -425,6 +425,7 @@ impl Source for Samples<'_> {
     type Error = Failure;
 
     fn begin(&self, index: u64) -> Result<(Model, Summarizer), NotBegun<Failure>> {
+        self.0.refuse_excluded(index)?;
         Ok((self.0.open_sample(index)?.model, Summarizer::new()))
     }
 

@@ -19,6 +19,8 @@ pub enum Ending {
     Failed(String),
     /// Its scenario is invalid, so nothing was run: the reason, in one line.
     Refused(String),
+    /// Its study leaves it out, so nothing was run: the reason.
+    Excluded(String),
     /// The program panicked, which is a defect: its message.
     Broken(String),
 }
@@ -59,7 +61,9 @@ impl Ending {
         match self {
             Ending::Completed => None,
             Ending::OutOfBalance(energy) => Some(format!("its energy balance is {}", energy.found())),
-            Ending::Failed(reason) | Ending::Refused(reason) | Ending::Broken(reason) => Some(reason.clone()),
+            Ending::Failed(reason) | Ending::Refused(reason) | Ending::Excluded(reason) | Ending::Broken(reason) => {
+                Some(reason.clone())
+            }
         }
     }
 }

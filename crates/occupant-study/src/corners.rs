@@ -18,7 +18,8 @@ pub struct Corner {
 }
 
 impl Study {
-    /// The corners: each parameter alone at its bounds, then all together; for a few parameters every combination.
+    /// The corners that keep the constraints: each parameter alone at its bounds, then all together; for a few parameters every
+    /// combination.
     pub fn corners(&self) -> Vec<Corner> {
         let ends: Vec<(usize, [Value; 2])> =
             self.parameters.iter().enumerate().filter_map(|(i, of)| Some((i, ends(of)?))).collect();
@@ -33,7 +34,13 @@ impl Study {
                 |(at, (i, ends)): (usize, &(usize, [Value; 2]))| (*i, ends[(bits >> at.min(31) & 1) as usize].clone());
             Corner { values: ends.iter().enumerate().map(end).collect() }
         });
-        alone.chain(combined).collect()
+        alone.chain(combined).filter(|corner| self.keeps(corner)).collect()
+    }
+
+    fn keeps(&self, corner: &Corner) -> bool {
+        let mut values: Vec<Value> = self.parameters.iter().map(Parameter::nominal).collect();
+        corner.values.iter().for_each(|(i, value)| values[*i] = value.clone());
+        self.broken(values.into_iter()).is_none()
     }
 
     /// The scenario of a corner.

@@ -44,7 +44,7 @@ pub trait Source: Sync {
     /// The model of a run and its recorder.
     ///
     /// # Errors
-    /// A refused scenario costs this run; anything else ends all.
+    /// A refused or excluded scenario costs this run; anything else ends all.
     fn begin(&self, index: u64) -> Result<(Model, Self::Recorder), NotBegun<Self::Error>>;
 
     /// The row of a run that has ended.
@@ -67,6 +67,8 @@ pub trait Source: Sync {
 pub enum NotBegun<E> {
     /// The scenario has errors.
     Refused(Diagnostics),
+    /// The study leaves it out, for this reason.
+    Excluded(String),
     /// An error that ends all runs.
     Error(E),
 }
@@ -86,7 +88,7 @@ pub struct Finished<R> {
     pub ending: Ending,
     /// Wall time since its start, s.
     pub wall_time_s: f64,
-    /// The model and its results; none if the scenario was refused or the program broke off.
+    /// The model and its results; none if the scenario was refused or excluded, or the program broke off.
     pub ran: Option<Ran<R>>,
 }
 
@@ -130,6 +132,11 @@ impl Engine {
     /// Number of threads.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
+    }
+
+    /// The kernel.
+    pub fn kernel(&self) -> Kernel {
+        self.kernel
     }
 
     /// Does other work on the threads of the engine, as parallel iterators share it.
@@ -245,6 +252,7 @@ impl<'a, S: Source, I: Iterator<Item = u64>> Worker<'a, S, I> {
                 match self.source.begin(index) {
                     Ok((model, recorder)) => return Some(Job { tag, model, recorder: (self.stop, recorder) }),
                     Err(NotBegun::Refused(problems)) => self.finish(tag, Ending::refused(&problems), None),
+                    Err(NotBegun::Excluded(reason)) => self.finish(tag, Ending::Excluded(reason), None),
                     Err(NotBegun::Error(error)) => self.hand_on(index, Err(error)),
                 }
             }

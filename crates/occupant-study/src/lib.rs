@@ -71,6 +71,7 @@ mod optimise_section;
 mod parameter;
 mod permutation;
 mod random;
+mod relation;
 pub mod risk;
 mod rows;
 mod saltelli;
@@ -98,9 +99,10 @@ pub use optimise::{Constraint, Goal, Optimise};
 pub use optimise_section::{ConstraintSection, GoalSection, OptimiseSection};
 pub use parameter::{Assignment, Parameter, Target};
 pub use random::{of_resample, of_stretch};
+pub use relation::{Relation, Within};
 pub use rows::Rows;
 pub use saltelli::Block;
-pub use section::{ApplyChoice, RatingSection, StudySection, schema_json};
+pub use section::{ApplyChoice, LinearConstraintSection, RatingSection, StudySection, schema_json};
 pub use text::StudyText;
 
 use self::copula::Copula;
@@ -129,6 +131,8 @@ pub struct Study {
     pub design: Design,
     sobol: Sobol,
     copula: Option<Copula>,
+    /// Constraints between the parameters.
+    pub relations: Vec<Relation>,
     /// The small changes of every sample, if any.
     pub ensemble: Option<Ensemble>,
     /// Runs whose full result file is kept.
@@ -172,6 +176,7 @@ impl Study {
             design: Design::Single,
             sobol: Sobol::new(0),
             copula: None,
+            relations: Vec::new(),
             ensemble: Some(Ensemble { members: members.max(1), perturbations }),
             keep: Keep::None,
             csv: false,
@@ -258,6 +263,12 @@ impl Study {
             .collect()
     }
 
+    /// Why a run is left out: the constraint that its sample breaks; none if it is to be run.
+    pub fn excluded(&self, index: u64) -> Option<String> {
+        let values = || self.sample(index).into_iter().map(|setting| setting.value);
+        if self.relations.is_empty() { None } else { self.broken(values()) }
+    }
+
     /// Assignments of a run to the base scenario, including the perturbations of its member, each path once.
     pub fn assignments(&self, index: u64) -> Vec<Assignment> {
         let mut list = Vec::new();
@@ -293,6 +304,17 @@ impl Study {
     pub fn role(&self, index: u64) -> Role {
         let (sample, _) = self.sample_and_member(index);
         self.design.role(sample / self.crossing(), &self.levels(), self.seed)
+    }
+
+    /// The constraint that these values of all parameters break.
+    fn broken(&self, values: impl Iterator<Item = Value>) -> Option<String> {
+        let number = |(value, parameter): (Value, &Parameter)| match (value, parameter.nominal()) {
+            (Value::Number(x), _) | (Value::Base, Value::Number(x)) => x,
+            // the check has refused constraints on words
+            _ => f64::NAN,
+        };
+        let numbers: Vec<f64> = values.zip(&self.parameters).map(number).collect();
+        self.relations.iter().find_map(|relation| relation.broken(&numbers))
     }
 
     fn levels(&self) -> Vec<Option<u64>> {

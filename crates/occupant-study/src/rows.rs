@@ -40,6 +40,11 @@ impl Rows {
         self.columns.get(parameter).is_some_and(|column| !column.words.is_empty())
     }
 
+    /// Whether a parameter has the value of the base in some samples.
+    pub(crate) fn has_gaps(&self, parameter: usize) -> bool {
+        self.columns.get(parameter).is_some_and(|column| column.values.iter().any(|x| x.is_nan()))
+    }
+
     /// Adds a sample. All values of a parameter are numbers, or all are words.
     pub(crate) fn push(&mut self, row: Vec<Value>) {
         self.columns.resize_with(row.len(), Column::default);

@@ -54,6 +54,9 @@ pub struct StudySection {
     /// Rank correlations between parameters, zero where none is given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<CorrelationSection>,
+    /// Constraints between parameters: samples that break one are not run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub constraints: Vec<LinearConstraintSection>,
     /// Design: the choice of samples.
     pub design: Option<Design>,
     /// Repeats every sample with small changes, to see which results are stable.
@@ -174,6 +177,21 @@ pub struct CorrelationSection {
     pub between: [String; 2],
     /// Spearman's rank correlation, from −1 to 1.
     pub rank: f64,
+}
+
+/// A constraint between parameters: the sum of their values, each times its factor, stays from `min` to `max`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LinearConstraintSection {
+    /// Its name in messages and in the table of results; its place in this file if absent.
+    pub name: Option<String>,
+    /// Names of parameters with their factors, such as `{ "lap limit" = 1, "torso limit" = -1 }`; all of one quantity. Values are
+    /// those of the columns of the table: of `apply = "factor"` the factor.
+    pub sum: IndexMap<String, f64>,
+    /// Least sum; a text carries its unit, such as "500 N".
+    pub min: Option<Value>,
+    /// Largest sum.
+    pub max: Option<Value>,
 }
 
 /// Small random changes of every sample, each uniform within ± its tolerance.

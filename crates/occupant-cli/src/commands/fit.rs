@@ -46,6 +46,10 @@ pub(crate) struct Args {
     #[command(flatten)]
     engine: EngineArgs,
 
+    /// Wait while another process works in the folder, instead of ending with exit code 75
+    #[arg(long)]
+    wait: bool,
+
     /// Remove the results in the folder and start again
     #[arg(long)]
     restart: bool,
@@ -69,7 +73,7 @@ pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
     let folder = Folder::of_fit(&args.output.clone().map_or_else(|| folder_of(&args.study), Ok)?);
     let interrupt = listen("stopping; press Ctrl-C again to stop at once");
     let (engine, interrupt, show) = (&engine, &interrupt, progress::show(args.quiet));
-    let found = fit_in(&fitting, &folder, &Work { engine, interrupt, show, restart: args.restart })?;
+    let found = fit_in(&fitting, &folder, &Work { engine, interrupt, show, restart: args.restart, wait: args.wait })?;
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?),
         (false, true) => Ok(()),

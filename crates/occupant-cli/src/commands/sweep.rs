@@ -65,7 +65,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "WHICH")]
     keep: Option<String>,
 
-    /// Only show the number of samples and the first few, and estimate time and size by running one
+    /// Only show the number of samples and the first few, and estimate time and size by running some, spread over the study, as the sweep will
     #[arg(long)]
     dry_run: bool,
 
@@ -137,8 +137,12 @@ fn design_only(args: &Args, study: &Path, file: &Path) -> Result<Done, Failure> 
     if !args.quiet {
         warn(&plan.warnings);
     }
-    write_design(&plan, file, Existing::by(args.restart))?;
-    print(&format!("wrote {}, {} samples\n", file.display(), plan.study.samples())).map(Into::into)
+    let written = write_design(&plan, file, Existing::by(args.restart))?;
+    let left_out = match plan.study.samples() - written {
+        0 => String::new(),
+        left_out => format!("; {left_out} break a constraint"),
+    };
+    print(&format!("wrote {}, {written} samples{left_out}\n", file.display())).map(Into::into)
 }
 
 /// The sweep; none for a part of the study without samples.

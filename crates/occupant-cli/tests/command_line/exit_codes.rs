@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
 
 use super::{answer, code, err, folder_with_case, out};
 
@@ -118,14 +120,19 @@ fn every_command_ends_with_0_when_done_1_when_it_broke_off_and_2_when_it_could_n
 }
 
 #[test]
-fn a_command_that_another_process_is_at_ends_with_75_and_does_its_work_later() {
+fn a_command_that_another_process_is_at_ends_with_75_and_does_its_work_later_or_waits() {
     let folder = folder_with_case();
     fs::write(folder.path().join("study.toml"), STUDY).expect("a study");
+    let made = "run case.toml -f -o run.mcap --set time.end=0.02";
+    for line in [made, "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x"] {
+        assert_eq!(code(&answer(folder.path(), &words(line))), 0, "{line}");
+    }
     for (line, lock) in [
         ("sweep study.toml -o sweep", "sweep/work.lock"),
         ("sweep study.toml -o sweep --range 0..2", "sweep/work.lock"),
         ("sweep study.toml -o sweep --shard 2/3", "sweep/journal/000000001-000000001.lock"),
         ("sweep merge sweep", "sweep/table.lock"),
+        ("fit study.toml --test test.csv -o fit", "fit/work.lock"),
         ("optimise study.toml -o optimum", "optimum/work.lock"),
     ] {
         let path = folder.path().join(lock);
@@ -135,8 +142,18 @@ fn a_command_that_another_process_is_at_ends_with_75_and_does_its_work_later() {
         let output = answer(folder.path(), &words(line));
         assert_eq!((code(&output), out(&output)), (75, String::new()), "{line}: {}", err(&output));
         assert!(err(&output).contains("error: another process is working in"), "{line}: {}", err(&output));
+        let waits = [&words(line)[..], &["--wait"]].concat();
+        let mut waiting = crate::common::occupant(folder.path())
+            .args(waits)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("a process");
+        sleep(Duration::from_millis(700));
+        assert!(waiting.try_wait().expect("a state").is_none(), "{line} does not wait");
         drop(held);
-        let output = answer(folder.path(), &words(line));
+        let output = waiting.wait_with_output().expect("an end");
         assert_eq!(code(&output), 0, "{line}: {}", err(&output));
+        assert!(err(&output).contains("waiting: another process is working in"), "{line}: {}", err(&output));
     }
 }

@@ -1,5 +1,6 @@
 //! Sweeps as sentences: what a user types, what is killed, and what the table says afterwards.
 
+mod constrained;
 mod damaged;
 mod design;
 mod interrupted;

@@ -215,3 +215,15 @@ fn wrong_ratings_are_refused() {
     assert!(!at.join("out").exists());
     assert!(done(at, &[&SWEEP[..], &["--dry-run"]].concat()).contains("un-r137, 2 bodies together"));
 }
+
+#[test]
+fn more_than_twenty_bodies_are_one_table_with_the_least_and_the_most() {
+    let grid = "grid = { from = \"20 mph\", to = \"25 mph\", steps = 21 }";
+    let one = STUDY.replace("\"front passenger\", ", "").replace("30 ms", "10 ms");
+    let folder = folder_with(&one.replace("list = [\"20 mph\", \"25 mph\"]", grid));
+    let at = folder.path();
+    let told = done(at, &SWEEP);
+    let (_, table) = told.split_once("21 bodies; rating.xlsx and rating.json have each\n").expect("a summary");
+    assert!(table.contains("Driver") && table.contains("runs/") && table.lines().count() < 8, "{table}");
+    assert_eq!(json(at, "out/rating.json")["results"].as_array().map(Vec::len), Some(21));
+}

@@ -7,7 +7,7 @@ use occupant_core::results::channel::Series;
 use occupant_core::results::summary::Caveat;
 use occupant_scenario::Diagnostics;
 use occupant_study::engine::Ran;
-use occupant_study::{ApplyChoice, Bounds, Distribution, Fit, Law, Parameter, StudyText};
+use occupant_study::{ApplyChoice, Bounds, Distribution, Fit, Law, Parameter, StudyText, Within};
 use serde::Serialize;
 
 use super::opening::{Given, Opening};
@@ -15,10 +15,14 @@ use super::{Correction, Experiment, Objective, Target, WORST};
 use crate::base::{Failure, file_name, file_stem};
 use crate::files::scenario::{nothing_was_run, refused};
 use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Text, Texts};
+use crate::search::within;
 use crate::sweep::plan::study_text;
 
 /// Largest number of evaluations beyond the budget.
 const ON_TOP: u64 = 1 << 20;
+/// Added to the score of a candidate that was moved across all of its range: more than any score, so that the lowest is where no
+/// candidate is moved.
+const OF_MOVE: f64 = 10.0;
 
 /// A study, its tests, and their scenarios. Shared by all threads.
 pub struct Fitting {
@@ -32,6 +36,8 @@ pub struct Fitting {
     pub parameters: Vec<Parameter>,
     /// Bounds of the parameters.
     pub bounds: Vec<Bounds>,
+    /// The points that keep the constraints of the study.
+    pub within: Option<Within>,
     /// Changes from the command line.
     pub overrides: Vec<String>,
     /// Manifest of the fit's folder; its first text is the study.
@@ -93,11 +99,12 @@ impl Fitting {
         let bounds: Option<Vec<Bounds>> = parameters.iter().map(|p| p.law.bounds()).collect();
         // bind_fit has refused parameters without ends
         let bounds = bounds.ok_or_else(|| Failure::plain("a parameter without a range"))?;
+        let within = within(&experiments[0].study.relations, &bounds)?;
         let tests = name_fitted(&mut experiments, tests);
         let samples = experiments.len() as u64 * fit.budget.saturating_add(ON_TOP);
         let (manifest, texts) = manifest(&text, texts, given, samples, program);
         let overrides = given.overrides.to_vec();
-        Ok(Fitting { fit, experiments, tests, parameters, bounds, overrides, manifest, texts, warnings })
+        Ok(Fitting { fit, experiments, tests, parameters, bounds, within, overrides, manifest, texts, warnings })
     }
 
     /// Corrections of all tests for these values of all parameters, or none.
@@ -139,6 +146,14 @@ impl Objective for Fitting {
 
     fn bounds(&self) -> &[Bounds] {
         &self.bounds
+    }
+
+    fn within(&self) -> Option<&Within> {
+        self.within.as_ref()
+    }
+
+    fn of_move(&self, at: &[f64]) -> f64 {
+        self.within.as_ref().map_or(0.0, |within| OF_MOVE * within.apart(&self.asked(at)))
     }
 
     fn runs(&self) -> u64 {

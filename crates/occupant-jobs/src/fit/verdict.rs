@@ -64,7 +64,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
             Value::Number(x) => Some(x),
             _ => None,
         },
-        value: bounds.value(u),
+        value: fitting.values(&answer.best.at)[i],
         interval: [bounds.value(ends[0].at), bounds.value(ends[1].at)],
         open,
         alone: alone(bounds, u, [down.length, up.length]),

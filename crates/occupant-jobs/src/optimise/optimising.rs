@@ -10,7 +10,7 @@ use occupant_scenario::ending::Ending;
 use occupant_scenario::{Diagnostics, Draft};
 use occupant_study::engine::Ran;
 use occupant_study::search::Trial;
-use occupant_study::{Bounds, MOST_RUNS, Optimise, Parameter, StudyText, is_allowed};
+use occupant_study::{Bounds, MOST_RUNS, Optimise, Parameter, StudyText, Within, is_allowed};
 
 use super::Measures;
 use super::searched::most_candidates;
@@ -21,7 +21,7 @@ use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
 use crate::fit::experiment::Experiment;
 use crate::fit::scenario_text::numbers;
 use crate::risk::columns;
-use crate::search::{Objective, Record};
+use crate::search::{Objective, Record, within};
 use crate::sweep::plan::{study_text, unread};
 
 /// Name of the scenario that is written.
@@ -37,6 +37,8 @@ pub struct Optimising {
     pub measures: Measures,
     /// Bounds of the parameters.
     pub bounds: Vec<Bounds>,
+    /// The points that keep the constraints of the study.
+    pub within: Option<Within>,
     /// Changes from the command line.
     pub overrides: Vec<String>,
     /// Manifest of the folder; its first text is the study.
@@ -70,6 +72,7 @@ impl Optimising {
         let bounds: Option<Vec<Bounds>> = study.parameters.iter().map(|p| p.law.bounds()).collect();
         // bind_optimise has refused parameters without ends
         let bounds = bounds.ok_or_else(|| Failure::plain("a parameter without a range"))?;
+        let within = within(&study.relations, &bounds)?;
         // what cannot be written is no use at the end of a search
         let lower: Vec<f64> = bounds.iter().map(|b| b.from).collect();
         numbers(&experiment, &lower).map_err(|found| refuse(text.complaint("parameters", found, "numbers", None)))?;
@@ -91,7 +94,7 @@ impl Optimising {
         let (of, texts) = texts.all();
         manifest.texts = of;
         let overrides = overrides.to_vec();
-        Ok(Optimising { optimise, experiment, measures, bounds, overrides, manifest, texts, warnings })
+        Ok(Optimising { optimise, experiment, measures, bounds, within, overrides, manifest, texts, warnings })
     }
 
     /// What a recorded candidate shows.
@@ -138,6 +141,10 @@ impl Objective for Optimising {
 
     fn bounds(&self) -> &[Bounds] {
         &self.bounds
+    }
+
+    fn within(&self) -> Option<&Within> {
+        self.within.as_ref()
     }
 
     fn runs(&self) -> u64 {

@@ -260,13 +260,15 @@ fn limits(measures: &Measures, before: Option<&[f64]>, after: &[f64]) -> Vec<Lim
 
 fn parameter(of: &Optimising, answer: &Answer, i: usize) -> Tuned {
     let (parameter, bounds) = (&of.parameters()[i], of.bounds[i]);
-    let u = answer.found.point.at[i];
+    let (best, value) = (&answer.found.point.at, |at: &[f64]| of.values(at)[i]);
+    let u = bounds.part(value(best));
     let neighbour = |side: usize| {
         let trial = answer.neighbours.as_ref()?.get(i)?[side].as_ref()?;
-        let step = if side == 0 { -STEP } else { STEP };
+        let mut at = best.clone();
+        at[i] = (at[i] + if side == 0 { -STEP } else { STEP }).clamp(0.0, 1.0);
         let beyond = trial.beyond.iter().zip(&of.measures.limits).filter(|(g, _)| **g > 0.0);
         Some(Neighbour {
-            value: bounds.value((u + step).clamp(0.0, 1.0)),
+            value: value(&at),
             goal: trial.goal.is_finite().then_some(trial.goal),
             beyond: beyond.map(|(_, limit)| of.measures.name(limit.value)).collect(),
             has_caveats: trial.is_refused,
@@ -284,7 +286,7 @@ fn parameter(of: &Optimising, answer: &Answer, i: usize) -> Tuned {
             occupant_study::Value::Number(x) => Some(x),
             _ => None,
         },
-        value: bounds.value(u),
+        value: value(best),
         at_bound: match u {
             u if u < STEP / 2.0 => Some("lower"),
             u if u > 1.0 - STEP / 2.0 => Some("upper"),

@@ -3,6 +3,7 @@
 mod answer;
 pub mod bodies;
 mod filled;
+pub mod summary;
 mod text;
 mod values;
 

@@ -176,7 +176,10 @@ fn record<O: Objective>(
         }
     }
     let score = match reason {
-        None => objective.score(&parts, !caveats.is_empty()).min(0.1 * WORST),
+        None => {
+            let of_move = candidate.as_deref().map_or(0.0, |at| objective.of_move(at));
+            (objective.score(&parts, !caveats.is_empty()) + of_move).min(0.1 * WORST)
+        }
         Some(_) => {
             parts.clear();
             WORST

@@ -19,10 +19,10 @@ use occupant_core::results::recorder::Recorder;
 use occupant_core::results::summary::Caveat;
 use occupant_scenario::Diagnostics;
 use occupant_study::engine::{Engine, Ran};
-use occupant_study::{Bounds, Parameter};
+use occupant_study::{Bounds, Parameter, Relation, Within};
 
 use crate::base::{Failure, Interrupt, Show, say};
-use crate::files::study_folder::{Block, Checksums, Column, Folder, Journal, Manifest};
+use crate::files::study_folder::{Block, Checksums, Column, Folder, Journal, Manifest, Waiting};
 use crate::sweep::words::{tell_damaged, warn_unlocked};
 
 /// What the candidates of a search are runs of, and what counts.
@@ -41,6 +41,9 @@ pub trait Objective: Sync {
 
     /// Bounds of the parameters.
     fn bounds(&self) -> &[Bounds];
+
+    /// The points that keep the constraints of the study; none without constraints.
+    fn within(&self) -> Option<&Within>;
 
     /// Runs per candidate.
     fn runs(&self) -> u64;
@@ -65,6 +68,11 @@ pub trait Objective: Sync {
     /// Score from the values of all runs, lower is better; `has_caveats`: any of them has caveats.
     fn score(&self, parts: &[f64], has_caveats: bool) -> f64;
 
+    /// What is added to the score of a candidate that was moved to keep the constraints; it grows with the distance.
+    fn of_move(&self, _at: &[f64]) -> f64 {
+        0.0
+    }
+
     /// A score as words.
     fn told(&self, score: f64) -> String;
 
@@ -74,8 +82,15 @@ pub trait Objective: Sync {
     /// Values of those columns from the values of all runs of a candidate; NaN where missing.
     fn row(&self, parts: &[f64]) -> Vec<f64>;
 
-    /// Values of the parameters, SI, at a point of the unit cube.
+    /// Values of the parameters, SI, at a point of the unit cube; of one that breaks constraints those of the nearest that keeps
+    /// them all.
     fn values(&self, at: &[f64]) -> Vec<f64> {
+        let values = self.asked(at);
+        self.within().map(|within| within.nearest(&values)).unwrap_or(values)
+    }
+
+    /// The same, whatever the constraints.
+    fn asked(&self, at: &[f64]) -> Vec<f64> {
         self.bounds().iter().zip(at).map(|(b, u)| b.value(*u)).collect()
     }
 
@@ -92,6 +107,15 @@ pub trait Objective: Sync {
     }
 }
 
+/// The points between bounds that keep the constraints of a study, if it has any.
+///
+/// # Errors
+/// Constraints that leave no point.
+pub fn within(relations: &[Relation], bounds: &[Bounds]) -> Result<Option<Within>, Failure> {
+    let none = || Failure::plain("constraints: no point of the ranges keeps all of them");
+    if relations.is_empty() { Ok(None) } else { Within::new(relations, bounds).map(Some).ok_or_else(none) }
+}
+
 /// How a search works.
 pub struct Work<'a> {
     /// Threads and kernel.
@@ -102,6 +126,8 @@ pub struct Work<'a> {
     pub show: Show,
     /// Whether earlier results are removed.
     pub restart: bool,
+    /// Whether it waits for another process at work in the folder.
+    pub wait: bool,
 }
 
 /// Searches in a folder, from where an earlier search of the same has stopped: `search` finds the answer within about
@@ -117,9 +143,10 @@ pub fn in_folder<O: Objective, A, T>(
     search: impl FnOnce(&mut Evaluator<'_, O>) -> Result<A, Failure>,
     write: impl FnOnce(&A, &[Record], &Checksums) -> Result<T, Failure>,
 ) -> Result<T, Failure> {
-    let (manifest, Work { engine, interrupt, show, restart }) = (objective.manifest(), work);
+    let (manifest, Work { engine, interrupt, show, restart, wait }) = (objective.manifest(), work);
     let all = Block { samples: 0..manifest.samples };
-    let held = folder.claim(manifest, texts, &all, *restart)?;
+    let waiting = Waiting { wait: *wait, quiet: show.quiet, interrupt };
+    let held = waiting.claim(|| folder.claim(manifest, texts, &all, *restart))?;
     warn_unlocked(&held, doing, show.quiet);
     let sums = Checksums::open(&folder.path, |_| true)?;
     let progress = Progress::new(budget, *show);

@@ -71,7 +71,9 @@ impl StudyBands<'_> {
         fs::create_dir_all(&self.folder)
             .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", self.folder.display())))?;
         tell_damaged(&self.sums.damaged());
-        for sample in (0..samples).filter(|s| self.there(*s) != There::Bands) {
+        let study = &self.plan.study;
+        let is_run = |sample: &u64| study.excluded(sample * study.members()).is_none();
+        for sample in (0..samples).filter(|s| is_run(s) && self.there(*s) != There::Bands) {
             let done = format!(
                 "the bands of {sample} of {samples} samples are complete; run the same command again to resume"
             );

@@ -131,10 +131,10 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
         ));
     }
     let lost = ends.without_figures();
-    if lost as f64 > MISSING * ends.finished() as f64 {
+    if lost as f64 > MISSING * ends.begun() as f64 {
         notes.push(format!(
             "{lost} of {} runs have no valid results. Runs seldom fail by chance, so statements about the others may not apply to all.",
-            ends.finished()
+            ends.begun()
         ));
     }
     let caveats: Vec<String> = ends.caveats().collect();

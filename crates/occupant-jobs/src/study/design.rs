@@ -7,11 +7,11 @@ use crate::files::study_folder::Role;
 use crate::sweep::Plan;
 use occupant_files::table::{Form, Kind, TableFile};
 
-/// Writes one row for each sample; the columns are named as a table of samples names them, in SI units.
+/// Writes one row for each sample that no constraint excludes, and gives their number; the columns are named as a table of samples names them, in SI units.
 ///
 /// # Errors
 /// An ending that is no table's; a file that is there and may not be replaced; an error of the operating system.
-pub fn write_design(plan: &Plan, path: &Path, existing: Existing) -> Result<(), Failure> {
+pub fn write_design(plan: &Plan, path: &Path, existing: Existing) -> Result<u64, Failure> {
     let study = &plan.study;
     let count = study.parameters.len();
     if count == 0 {
@@ -27,10 +27,13 @@ pub fn write_design(plan: &Plan, path: &Path, existing: Existing) -> Result<(), 
     };
     let columns: Vec<(String, Kind)> = plan.manifest.columns.iter().take(count).map(heading).collect();
     let mut table = TableFile::create(path.to_owned(), Form::of_output(path)?, existing, &columns, &[])?;
-    for sample in 0..study.samples() {
-        let mut cells = plan.inputs(sample * study.members());
+    let mut written = 0;
+    for run in (0..study.samples()).map(|sample| sample * study.members()).filter(|run| study.excluded(*run).is_none())
+    {
+        let mut cells = plan.inputs(run);
         cells.truncate(count);
         table.row(cells)?;
+        written += 1;
     }
-    table.publish().map(|_| ())
+    table.publish().map(|_| written)
 }

@@ -27,7 +27,7 @@ const MOST_WORDS: usize = 1000;
 /// The table of a study, and the outcomes of its runs.
 #[derive(Clone, Debug, Default)]
 pub struct Gathered {
-    /// One row for each sample that is finished; a part of them if the study is large.
+    /// One row for each sample that is finished and not excluded; a part of them if the study is large.
     pub samples: Samples,
     /// Of a large study: what is left of all its samples.
     pub streams: Option<Streams>,
@@ -159,7 +159,7 @@ pub fn gather(
     Ok(gathered)
 }
 
-/// Passes on each sample that is finished, with these columns of responses.
+/// Passes on each sample that is finished and not excluded, with these columns of responses.
 ///
 /// # Errors
 /// A journal that cannot be read; what `see` says.
@@ -197,6 +197,9 @@ impl<'a> Sampling<'a> {
     }
 
     fn see(&mut self, row: Row, ended: &mut impl FnMut(Sample) -> Result<(), Failure>) -> Result<(), Failure> {
+        if row.status == Status::Excluded {
+            return Ok(());
+        }
         let (number, _) = self.study.sample_and_member(row.index);
         if self.present.as_ref().is_some_and(|present| present.number != number) {
             self.close(ended)?;
@@ -263,6 +266,9 @@ impl Gathered {
     /// Counts a run.
     fn see(&mut self, row: &Row, figures: &[usize]) {
         let counts = self.ends.see(row);
+        if row.status == Status::Excluded {
+            return;
+        }
         let caveats: Vec<Caveat> = row.caveats().collect();
         for (i, at) in figures.iter().enumerate() {
             let value = row.cells.get(*at).and_then(Cell::number).filter(|_| counts).unwrap_or(f64::NAN);

@@ -42,11 +42,11 @@ pub fn page(report: &Report) -> String {
     html.raw("</div><div>\n");
     sections::ends(&mut html, report);
     html.raw("</div></div>\n");
-    if ends.finished() > 0 {
+    if ends.begun() > 0 {
         panels::section(&mut html, report);
     }
     sections::varied(&mut html, report);
-    if ends.finished() == 0 {
+    if ends.begun() == 0 {
         html.text("p class=\"note\"", "No run has finished yet.");
     } else {
         html.text("h2", "Measure by measure");

@@ -42,8 +42,8 @@ pub fn about(opened: &Stored, gathered: &Gathered, units: Units) -> About {
     let members = study.members();
     let is_single = study.samples() == 1 && members > 1;
     let (each, count) = match (is_single, members) {
-        (true, _) => (["changed run".to_owned(), "changed runs".to_owned()], ends.finished().saturating_sub(1)),
-        (false, 1) => (["run".to_owned(), "runs".to_owned()], ends.finished()),
+        (true, _) => (["changed run".to_owned(), "changed runs".to_owned()], ends.begun().saturating_sub(1)),
+        (false, 1) => (["run".to_owned(), "runs".to_owned()], ends.begun()),
         (false, n) => {
             let of = |noun: &str| format!("{noun} (each the median of {n} runs with small changes)");
             ([of("sample"), of("samples")], gathered.len())
@@ -53,8 +53,12 @@ pub fn about(opened: &Stored, gathered: &Gathered, units: Units) -> About {
         if manifest.title.is_empty() { String::new() } else { format!(" for the study “{}”", manifest.title) };
     let unfinished = ends.planned - ends.finished();
     let open = if unfinished > 0 { format!(", {unfinished} runs are not finished") } else { String::new() };
+    let excluded = match ends.excluded {
+        0 => String::new(),
+        n => format!(", {n} left out by constraints"),
+    };
     let simulated = format!(
-        "{} simulated {}{title}: {count} {} ({}, seed {}{open})",
+        "{} simulated {}{title}: {count} {} ({}, seed {}{excluded}{open})",
         manifest.program,
         study.base_name,
         each[usize::from(count != 1)],

@@ -69,6 +69,7 @@ pub fn ends(html: &mut Html, report: &Report) {
         ("failed", ends.failed),
         ("refused", ends.refused),
         ("the program stopped", ends.broken),
+        ("excluded by constraints: not run", ends.excluded),
         ("not finished yet", ends.planned - ends.finished()),
     ] {
         if count > 0 {

@@ -1,8 +1,5 @@
 //! A sweep in its folder: computes what is missing, writes whole runs that are kept, then the tables, or its part of the table.
 
-use std::thread::sleep;
-use std::time::Duration;
-
 use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
@@ -13,10 +10,7 @@ use super::words::{indices, judged, tell, tell_damaged, warn_unlocked};
 use super::{Plan, Simulation, kept, parts, results};
 use crate::base::{Done, Failure, Interrupt, Show, Units, note, quoted, say};
 use crate::files::study_folder::checksums::sample_of;
-use crate::files::study_folder::{Block, Checksums, Finished, Folder, Held, Journal, JournalWriter, Problem};
-
-/// Interval of looks at a folder in which another process is at work.
-const LOOK_AGAIN: Duration = Duration::from_millis(500);
+use crate::files::study_folder::{Block, Checksums, Finished, Folder, Held, Journal, JournalWriter, Problem, Waiting};
 
 /// A sweep, or one part of it.
 pub struct Sweep {
@@ -97,19 +91,11 @@ impl Sweep {
     /// Claims the folder, when others have left it if they may be waited for.
     fn claim(&self) -> Result<Held, Failure> {
         let Sweep { plan, folder, .. } = self;
-        let mut is_told = self.show.quiet;
-        loop {
-            match folder.claim(&plan.manifest, &plan.texts, &self.block, self.restart) {
-                Err(problem @ Problem::Busy { .. }) if self.wait => {
-                    if !std::mem::replace(&mut is_told, true) {
-                        say(&format!("waiting: {}", problem.to_string().lines().next().unwrap_or_default()));
-                    }
-                    self.interrupt.refuse("nothing; another process is at work")?;
-                    sleep(LOOK_AGAIN);
-                }
-                claimed => return Ok(claimed?),
-            }
-        }
+        self.waiting().claim(|| folder.claim(&plan.manifest, &plan.texts, &self.block, self.restart))
+    }
+
+    fn waiting(&self) -> Waiting<'_> {
+        Waiting { wait: self.wait, quiet: self.show.quiet, interrupt: &self.interrupt }
     }
 
     /// What there is: of a part of the study its own files alone.
@@ -182,11 +168,11 @@ impl Sweep {
     /// Writes the tables, the worst runs and the rating.
     fn finish(&self, journal: &Journal, progress: &Progress, sums: Checksums) -> Result<(Done, String), Failure> {
         let place = (&self.folder, &sums);
-        let mut results = results::write(place, journal, &self.plan.manifest, &self.keep, self.csv)?;
+        let mut results = results::write(place, journal, &self.plan.manifest, (&self.keep, self.csv), &self.waiting())?;
         self.write_kept(journal, &sums, results.worst.iter().copied())?;
         let run_of = |index| Some(self.folder.run(index)).filter(|path| sums.holds(path));
         let elapsed_s = progress.elapsed_s();
-        let rated = rate(&self.plan, place, journal, &run_of, (&self.engine, &self.interrupt))?;
+        let rated = rate(&self.plan, place, journal, &run_of, (&self.engine, &self.waiting()))?;
         results.files.extend(rated.files);
         sums.close()?;
         self.folder.clear_journals()?;

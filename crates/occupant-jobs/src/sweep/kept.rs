@@ -103,7 +103,7 @@ pub fn write_missing(
         let lacks = match row.map(|row| row.status) {
             Some(Status::Completed) => true,
             Some(Status::Failed) => !sums.holds(&partial_path(&file)),
-            Some(Status::Refused | Status::Broken) | None => false,
+            Some(Status::Refused | Status::Excluded | Status::Broken) | None => false,
         };
         if lacks {
             missing.push(index);

@@ -19,7 +19,9 @@ mod rehearsal;
 pub mod results;
 pub mod simulation;
 mod stable;
+mod staying;
 pub mod stored;
+mod trial;
 pub mod words;
 
 pub use crate::files::study_folder::Census;
@@ -28,4 +30,5 @@ pub use plan::Plan;
 pub use results::Results;
 pub use simulation::Simulation;
 pub use stable::{Ensembles, Stable};
+use staying::Staying;
 pub use stored::Stored;

@@ -153,7 +153,10 @@ impl Plan {
         let samples = self.study.len();
         let spread = (0..LOOKED_AT).map(|i| i * samples / LOOKED_AT).chain([samples.saturating_sub(1)]);
         let mut first = None;
-        for index in spread.filter(|index| *index < samples && !self.study.assignments(*index).is_empty()) {
+        for index in spread.filter(|index| *index < samples && self.study.excluded(*index).is_none()) {
+            if self.study.assignments(index).is_empty() {
+                continue;
+            }
             match self.open_sample(index) {
                 Ok(_) => return Ok(()),
                 Err(problems) => first = first.or(Some((index, problems))),

@@ -32,7 +32,7 @@ impl Progress {
     /// Counts a row.
     pub fn see(&mut self, row: &Row) {
         self.computed += 1;
-        self.failed += u64::from(row.status != Status::Completed);
+        self.failed += u64::from(!matches!(row.status, Status::Completed | Status::Excluded));
         if !row.kernel.is_empty() {
             *self.kernels.entry(row.kernel.clone()).or_default() += 1;
         }

@@ -13,12 +13,12 @@ use rayon::prelude::*;
 
 use super::Plan;
 use super::plan::unread;
-use crate::base::{Existing, Failure, Interrupt, Units, file_name, json, sha256, write_whole};
+use crate::base::{Existing, Failure, Units, file_name, json, sha256, write_whole};
 use crate::files::scenario::refused;
-use crate::files::study_folder::{Checksums, Folder, Journal, NamedBy, Row, Status, Texts};
+use crate::files::study_folder::{Checksums, Folder, Journal, NamedBy, Row, Status, Texts, Waiting};
 use crate::measures::Judged;
 use crate::rated::bodies::{self, Item, One, answer, of_run, rate_all, tables};
-use crate::rated::{Misplaced, Values, distinct, named, unknown, write};
+use crate::rated::{Misplaced, Values, distinct, named, summary, unknown, write};
 use occupant_files::results::Results;
 
 /// What rates the bodies of a study's runs.
@@ -135,6 +135,8 @@ impl Rates {
         if self.places.len() < 2 || items.iter().all(|item| item.missing.is_some()) {
             left_out = items.iter().filter_map(|item| item.missing.clone()).collect();
             left_out.dedup();
+            let more = left_out.split_off(left_out.len().min(summary::SHOWN)).len();
+            left_out.extend((more > 0).then(|| format!("{more} more samples without a run")));
             items.retain(|item| item.missing.is_none());
         }
         (items, left_out)
@@ -230,7 +232,7 @@ pub fn rate(
     (folder, sums): (&Folder, &Checksums),
     journal: &Journal,
     run_of: RunOf<'_>,
-    (engine, interrupt): (&Engine, &Interrupt),
+    (engine, waiting): (&Engine, &Waiting<'_>),
 ) -> Result<Rated, Failure> {
     let none = |notes| {
         folder.rating().iter().try_for_each(|file| sums.remove(file))?;
@@ -240,11 +242,14 @@ pub fn rate(
     let units = Units::of_scenario(plan.study.base.units());
     let mut samples = Vec::new();
     journal.each_row(|row| {
-        samples.push(Ended::of(&row));
+        // with a place for each run those left out have theirs too
+        if row.status != Status::Excluded || rates.places.len() > 1 {
+            samples.push(Ended::of(&row));
+        }
         Ok(())
     })?;
     let of_sample = |ended: &Ended| {
-        interrupt.refuse("all samples are finished; run the same command again to rate them")?;
+        waiting.interrupt.refuse("all samples are finished; run the same command again to rate them")?;
         rates.bodies(ended, folder, run_of, units)
     };
     let items = engine.share(|| samples.par_iter().map(of_sample).collect::<Result<Vec<_>, Failure>>())?;
@@ -253,18 +258,25 @@ pub fn rate(
         return none(notes);
     }
     let all = rate_all(rates.rating, &rates.places, rates.values.as_ref(), &items)?;
-    notes.extend(bodies::notes(&all));
-    let written = written(rates.rating, &all, folder);
+    let is_short = all.len() <= summary::SHOWN;
+    notes.extend(if is_short { bodies::notes(&all) } else { Vec::new() });
+    let written = written(rates.rating, &all, folder, waiting);
     if written.is_err() {
         folder.remove_partial_tables();
     }
     let files = written?.to_vec();
     files.iter().try_for_each(|file| sums.add(file))?;
-    Ok(Rated { text: format!("\n{}", tables(rates.rating, &all, &items)), notes, files })
+    let told = if is_short { tables(rates.rating, &all, &items) } else { summary::summary(rates.rating, &all) };
+    Ok(Rated { text: format!("\n{told}"), notes, files })
 }
 
-fn written(rating: &'static Rating, all: &[One], folder: &Folder) -> Result<[PathBuf; 2], Failure> {
-    let _alone = folder.claim_table()?;
+fn written(
+    rating: &'static Rating,
+    all: &[One],
+    folder: &Folder,
+    waiting: &Waiting<'_>,
+) -> Result<[PathBuf; 2], Failure> {
+    let _alone = waiting.claim(|| folder.claim_table())?;
     let [table, told] = folder.rating();
     write(&table, true, &all.iter().map(|one| &one.rated).collect::<Vec<_>>())?;
     write_whole(&told, Existing::Replace, json(&answer(rating, all))?.as_bytes())?;

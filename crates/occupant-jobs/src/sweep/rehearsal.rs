@@ -1,13 +1,11 @@
 //! Preview of a sweep, without writing anything.
 
-use std::time::Instant;
-
-use occupant_core::results::summary::Summarizer;
-use occupant_core::run::simulate::attempt;
 use occupant_study::Value;
 use placed_text::Severity;
 
+use super::Staying;
 use super::job::Sweep;
+use super::trial::Trial;
 use super::words::indices;
 use crate::base::Failure;
 use crate::base::text_table::Align::{Left, Right};
@@ -16,33 +14,35 @@ use crate::files::study_folder::Role;
 use occupant_files::table::Cell;
 
 /// Number of samples shown.
-const SHOWN: u64 = 5;
-/// Approximate size of a table value, bytes.
-const CELL: f64 = 8.0;
+const SHOWN: usize = 5;
 
 impl Sweep {
-    /// Number of samples, the first of them, and the time they take, estimated by running one.
+    /// Number of samples, the first of them, and the time they take, estimated by running some.
     ///
     /// # Errors
-    /// The first sample is refused or fails.
+    /// No sample tried can be run.
     pub fn rehearse(&self) -> Result<String, Failure> {
         let (manifest, samples) = (&self.plan.manifest, self.block.samples.clone());
         let count = samples.end - samples.start;
+        let left = Staying::of(&self.plan.study, &samples, &self.engine);
         let (corners, refused) = self.corners();
-        let seconds = self.of_one(samples.start).map_err(|failure| match &refused[..] {
-            [] => failure,
-            some => failure.with_done(&format!(
-                "of {corners} corners of the study, {} are invalid:\n{}",
-                some.len(),
-                some.concat()
-            )),
-        })?;
-        let threads = self.engine.threads() as f64;
-        let megabytes = count as f64 * manifest.columns.len() as f64 * CELL / 1e6;
-        let mut lines = vec![
-            ("samples", format!("{count} of {} columns each", manifest.columns.len())),
-            ("time", format!("about {}, one sample took {seconds:.2} s", duration(seconds * count as f64 / threads))),
-            ("threads", threads.to_string()),
+        let tried =
+            Trial::of(&self.plan, &samples, &self.engine, &self.interrupt).map_err(|failure| match &refused[..] {
+                [] => failure,
+                some => failure.with_done(&format!(
+                    "of {corners} corners of the study, {} are invalid:\n{}",
+                    some.len(),
+                    some.concat()
+                )),
+            })?;
+        let inputs = manifest.columns.iter().filter(|column| column.role != Role::Figure).count();
+        let megabytes = tried.bytes(&left, inputs) / 1e6;
+        let mut lines = vec![("samples", format!("{count} of {} columns each", manifest.columns.len()))];
+        if !self.plan.study.relations.is_empty() {
+            lines.push(("constraints", left.words()));
+        }
+        lines.extend(tried.lines(&left));
+        lines.extend([
             (
                 "corners",
                 match refused.len() {
@@ -50,12 +50,13 @@ impl Sweep {
                     n => format!("{n} of {corners} are INVALID, see below"),
                 },
             ),
-            ("table", format!("about {megabytes:.1} MB, plus the whole runs that are kept")),
+            ("table", format!("about {megabytes:.1} MB on disk, plus the whole runs that are kept")),
             ("folder", format!("{}; nothing was written", self.folder.path.display())),
-        ];
+        ]);
         lines.extend(self.plan.rating.as_ref().map(|rates| ("rating", rates.words())));
         lines.extend(indices(&self.plan.study).map(|note| ("indices", note)));
-        let first = self.first(samples.start..samples.end.min(samples.start + SHOWN));
+        let is_run = |index: &u64| self.plan.study.excluded(*index).is_none();
+        let first = self.first(samples.filter(is_run).take(SHOWN));
         let refused =
             if refused.is_empty() { String::new() } else { format!("\nrefused corners\n{}", refused.concat()) };
         Ok(format!("{}\n{first}{refused}", facts(&lines)))
@@ -83,18 +84,8 @@ impl Sweep {
         (all.len(), refused.collect())
     }
 
-    /// Wall time of a sample, s.
-    fn of_one(&self, index: u64) -> Result<f64, Failure> {
-        let began = Instant::now();
-        let opened = self.plan.open_sample(index);
-        let opened = opened.map_err(|problems| Failure::plain(format!("sample {index} is invalid:\n{problems}")))?;
-        let ended = attempt(&opened.model, Summarizer::new());
-        ended.map_err(|error| Failure::broke_off(format!("sample {index} does not run: {error}")))?;
-        Ok(began.elapsed().as_secs_f64())
-    }
-
     /// Inputs of the first samples.
-    fn first(&self, samples: std::ops::Range<u64>) -> String {
+    fn first(&self, samples: impl Iterator<Item = u64>) -> String {
         let inputs: Vec<_> =
             self.plan.manifest.columns.iter().filter(|c| matches!(c.role, Role::Input | Role::InputText)).collect();
         let head = |name: &str, unit: &str| match unit {
@@ -125,14 +116,5 @@ impl Sweep {
             table.row(std::iter::once(index.to_string()).chain(cells.iter().zip(&shown).map(text)));
         }
         table.text()
-    }
-}
-
-/// A duration as text.
-fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 100.0 => format!("{s:.1} s"),
-        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
     }
 }

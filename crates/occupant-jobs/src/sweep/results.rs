@@ -8,7 +8,9 @@ use super::{Census, Ensembles, Extremes, Stable};
 use crate::base::{Existing, Failure};
 use crate::ensemble::text::is_shown;
 use crate::files::study_folder::table::write_columns;
-use crate::files::study_folder::{About, Checksums, Folder, Journal, Manifest, Problem, Role, StudyTable};
+use crate::files::study_folder::{
+    About, Checksums, Folder, Journal, Manifest, Problem, Role, Status, StudyTable, Waiting,
+};
 use occupant_files::table::{Cell, Form};
 
 /// Results of a sweep.
@@ -34,11 +36,11 @@ pub fn write(
     (folder, sums): (&Folder, &Checksums),
     journal: &Journal,
     manifest: &Manifest,
-    keep: &Keep,
-    csv: bool,
+    (keep, csv): (&Keep, bool),
+    waiting: &Waiting<'_>,
 ) -> Result<Results, Failure> {
     refuse_gaps(journal, manifest)?;
-    let _alone = folder.claim_table()?;
+    let _alone = waiting.claim(|| folder.claim_table())?;
     // a table that is damaged is made again, whatever is asked for today
     let csv = csv || sums.damaged().iter().any(|file| file.extension().is_some_and(|e| e == "csv"));
     let written = write_files((folder, sums), journal, manifest, keep, csv);
@@ -92,7 +94,7 @@ fn write_files(
         for (at, _, _, range) in ranges.iter_mut().filter(|_| counts) {
             range.see(&row.index, row.cells.get(*at).and_then(Cell::number).unwrap_or(f64::NAN));
         }
-        if let Some(stable) = &mut stable {
+        if let Some(stable) = stable.as_mut().filter(|_| row.status != Status::Excluded) {
             stable.see(&row, counts)?;
         }
         table.row(&row)

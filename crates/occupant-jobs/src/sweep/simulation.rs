@@ -39,6 +39,7 @@ impl Source for Simulation<'_> {
     type Error = Failure;
 
     fn begin(&self, index: u64) -> Result<(Model, Self::Recorder), NotBegun<Failure>> {
+        self.plan.refuse_excluded(index)?;
         if !is_kept(self.keep, index) {
             return Ok((self.plan.open_sample(index)?.model, (Summarizer::new(), Recording::none())));
         }
@@ -69,6 +70,14 @@ impl Source for Simulation<'_> {
 }
 
 impl Plan {
+    /// Leaves out a run that a constraint of the study excludes.
+    ///
+    /// # Errors
+    /// The constraint.
+    pub fn refuse_excluded<E>(&self, index: u64) -> Result<(), NotBegun<E>> {
+        self.study.excluded(index).map_or(Ok(()), |reason| Err(NotBegun::Excluded(reason)))
+    }
+
     /// The row of a run, still without figures.
     pub fn row<R>(&self, run: &Finished<R>) -> Row {
         let mut cells = self.inputs(run.index);

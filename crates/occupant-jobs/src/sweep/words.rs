@@ -61,18 +61,19 @@ pub fn indices(study: &Study) -> Option<String> {
 /// How samples ended: "29 completed, 1 failed".
 pub fn ended(census: &Census) -> String {
     let all = [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program stopped")];
-    let rest = all.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!(", {count} {word}"));
+    let left_out = Some((census.excluded, "excluded by constraints"));
+    let rest =
+        all.iter().chain(&left_out).filter(|(count, _)| *count > 0).map(|(count, word)| format!(", {count} {word}"));
     format!("{} completed{}", census.completed, rest.collect::<String>())
 }
 
 /// Whether a study came to anything: one without a single figure that counts did not, which is said.
 pub fn judged(census: &Census) -> Done {
-    if census.finished() == 0 || census.without_figures() < census.finished() {
+    if census.begun() == 0 || census.without_figures() < census.begun() {
         return Done::Well;
     }
     let why = census.first.first().map_or(String::new(), |(index, reason)| format!("; sample {index}: {reason}"));
-    let all =
-        if census.refused == census.finished() { "every sample is invalid" } else { "no sample has valid results" };
+    let all = if census.refused == census.begun() { "every sample is invalid" } else { "no sample has valid results" };
     say(&format!("error: {all}{why}\n = help: `occupant sweep STUDY --dry-run` tries the corners of the study"));
     Done::Unwell
 }

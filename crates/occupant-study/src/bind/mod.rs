@@ -1,5 +1,6 @@
 //! A study meets its base scenario: paths find their places, numbers their units, and everything that does not fit is reported.
 
+mod constraints;
 mod correlations;
 mod design;
 mod ensemble;
@@ -50,6 +51,7 @@ impl StudyText {
         let (design, copula, ensemble) = binder.varied(&base, &mut parameters, resolver);
         let keep = binder.keep();
         binder.sizes(&parameters, &design, ensemble.as_ref());
+        let relations = binder.relations(&parameters, &design);
         extremes::check(&mut binder, &base, &parameters, overrides);
         if binder.problems.has_errors() {
             return Err(binder.problems);
@@ -60,7 +62,7 @@ impl StudyText {
             _ => parameters.len(),
         };
         let output = self.section.output.as_ref();
-        Ok(Study {
+        let study = Study {
             base: base.prepared(),
             base_name: self.section.base.clone(),
             changes,
@@ -69,12 +71,17 @@ impl StudyText {
             design,
             sobol: Sobol::new(dimensions),
             copula,
+            relations,
             ensemble,
             keep,
             csv: output.and_then(|o| o.csv).unwrap_or(false),
             measures: output.and_then(|o| o.measures.clone()).unwrap_or_default(),
             warnings,
-        })
+        };
+        if purpose == Purpose::Sweep {
+            self.refuse_nothing_left(&study)?;
+        }
+        Ok(study)
     }
 }
 
@@ -178,6 +185,7 @@ impl<'a> Binder<'a> {
             ("parameters", section.parameters.iter().map(|parameter| times(&parameter.paths)).sum()),
             ("set", section.set.len()),
             ("correlations", section.correlations.len()),
+            ("constraints", section.constraints.iter().map(|constraint| constraint.sum.len().max(1)).sum()),
             ("ensemble.perturbations", perturbations.iter().map(|each| times(&each.paths)).sum()),
             ("fit.channels", fit.map_or(0, |fit| fit.channels.len())),
             ("fit.tests", fit.map_or(0, |fit| fit.tests.len())),

@@ -1,6 +1,7 @@
 //! The samples of a CSV or Parquet file: names with units, then one row for each sample.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{self, AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
 
 use bytes::Bytes;
 use parquet::errors::ParquetError;
@@ -32,7 +33,10 @@ pub(super) fn rows(binder: &mut Binder, file: &str, parameters: &mut Vec<Paramet
         Ok(bytes) => bytes,
         Err(reason) => {
             let found = format!("`{file}` cannot be read: {reason}");
-            binder.error("design.file", found, "a CSV or Parquet file, its name relative to the study", None);
+            let is_large = reason.contains("the limit for");
+            let hint = is_large
+                .then(|| "a larger table is read from Parquet, as DuckDB's `copy … to` or polars write it".to_owned());
+            binder.error("design.file", found, "a CSV or Parquet file, its name relative to the study", hint);
             return Rows::default();
         }
     };
@@ -314,9 +318,26 @@ fn of_parquet(binder: &mut Binder, file: &str, bytes: Vec<u8>, parameters: &mut 
 /// What is wrong with a row: its column, what was found and what was expected.
 type Misfit = (Span, String, String);
 
-/// What a reader of Parquet gives; it panics on some damaged files.
+thread_local! {
+    /// Whether a panic of this thread is caught and told of in other words.
+    static IS_QUIET: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+}
+
+/// What a reader of Parquet gives; it panics on some damaged files, which is not printed.
 fn unbroken<T>(read: impl FnOnce() -> T) -> Result<T, ParquetError> {
-    catch_unwind(AssertUnwindSafe(read)).map_err(|_| ParquetError::General("it is damaged".to_owned()))
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let print = panic::take_hook();
+        panic::set_hook(Box::new(move |of| {
+            if !IS_QUIET.get() {
+                print(of)
+            }
+        }));
+    });
+    IS_QUIET.set(true);
+    let read = catch_unwind(AssertUnwindSafe(read));
+    IS_QUIET.set(false);
+    read.map_err(|_| ParquetError::General("it is damaged".to_owned()))
 }
 
 /// Passes on the fields of each row, until one does not fit.

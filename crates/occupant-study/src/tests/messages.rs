@@ -22,7 +22,7 @@ list = []
 2 | sed = 3
   | ^^^
   = help: did you mean `seed`?
-  = expected: `title`, `notes`, `units`, `base`, `seed`, `set`, `parameters`, `correlations`, `design`, `ensemble`, `fit`, `optimise`, `keep`, `output` or `rating`
+  = expected: `title`, `notes`, `units`, `base`, `seed`, `set`, `parameters`, `correlations`, `constraints`, `design`, `ensemble`, `fit`, `optimise`, `keep`, `output` or `rating`
 
 error: "latin_hypercub" is not a value of `kind`
  --> study.toml:3:19

@@ -1,5 +1,6 @@
 //! Tests of studies.
 
+mod constraints;
 mod designs;
 mod ensembles;
 mod fits;

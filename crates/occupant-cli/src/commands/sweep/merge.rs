@@ -13,6 +13,7 @@ use occupant_jobs::files::study_folder::checksums::{Checksums, sample_of};
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::journal::Journal;
 use occupant_jobs::files::study_folder::problem::Problem;
+use occupant_jobs::files::study_folder::waiting::Waiting;
 use occupant_jobs::sweep::results::refuse_gaps;
 use occupant_jobs::sweep::stored::{MadeBy, Stored, open_with};
 use occupant_jobs::sweep::words::{judged, tell, tell_damaged};
@@ -38,6 +39,10 @@ pub(crate) struct MergeArgs {
     /// Number of threads for the worst runs; one per core if absent
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
+
+    /// Wait while another process writes the table, instead of ending with exit code 75
+    #[arg(long)]
+    wait: bool,
 
     /// Also write the table as results.csv, with the units in columns.csv
     #[arg(long)]
@@ -69,7 +74,9 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     journal.runs_in(&target).for_each(|(name, sum)| sums.learn(name, sum, true));
     tell_damaged(&sums.damaged());
     let runs = kept::among(&sums.damaged(), &target, 0..manifest.samples);
-    let mut found = results::write((&target, &sums), &journal, &manifest, &keep, args.csv || plan.study.csv)?;
+    let waiting = Waiting { wait: args.wait, quiet: args.quiet, interrupt: &Interrupt::default() };
+    let csv = args.csv || plan.study.csv;
+    let mut found = results::write((&target, &sums), &journal, &manifest, (&keep, csv), &waiting)?;
     let others = if plan.rating.is_some() { others(&args.folders, &target, &journal)? } else { Vec::new() };
     let places = || std::iter::once((&target, &sums)).chain(others.iter().map(|(folder, sums)| (folder, sums)));
     let run_of = |index| places().find_map(|(at, sums)| Some(at.run(index)).filter(|path| sums.holds(path)));
@@ -77,7 +84,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let wanted = found.worst.iter().copied().chain(runs).chain(lacking);
     let engine = engine(args.threads, Kernel::best())?;
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
-    let rated = rating::rate(&plan, (&target, &sums), &journal, &run_of, (&engine, &Interrupt::default()))?;
+    let rated = rating::rate(&plan, (&target, &sums), &journal, &run_of, (&engine, &waiting))?;
     found.files.extend(rated.files);
     sums.close()?;
     target.clear_journals_if_alone()?;

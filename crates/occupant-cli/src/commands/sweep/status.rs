@@ -50,7 +50,7 @@ pub(crate) fn status(args: &StatusArgs) -> Result<(), Failure> {
 fn failed(journal: &Journal) -> Result<String, Failure> {
     let mut lines = String::new();
     journal.each_row(|row| {
-        if row.status != Status::Completed {
+        if !matches!(row.status, Status::Completed | Status::Excluded) {
             let reason = row.reason.replace(['\n', '\t'], " ");
             lines += &format!("{}\t{}\t{reason}\n", row.index, row.status.word());
         }

@@ -93,6 +93,15 @@ impl Kernel {
         }
     }
 
+    /// Number of runs side by side.
+    pub fn lanes(self) -> usize {
+        match self {
+            Kernel::Scalar => 1,
+            Kernel::Lanes4 => 4,
+            Kernel::Lanes8 => 8,
+        }
+    }
+
     /// Kernel with this name.
     pub fn named(name: &str) -> Option<Kernel> {
         let all = [Kernel::Scalar, Kernel::Lanes4, Kernel::Lanes8];

@@ -25,6 +25,8 @@ pub struct Census {
     pub failed: u64,
     /// Runs whose scenario was refused.
     pub refused: u64,
+    /// Runs that the study's constraints leave out.
+    pub excluded: u64,
     /// Runs on which the program broke off.
     pub broken: u64,
     /// Completed runs with a lost energy balance, whose figures are invalid.
@@ -45,14 +47,19 @@ impl Census {
         Census { planned: manifest.samples, ..Census::default() }
     }
 
-    /// Number of ended runs.
+    /// Number of runs that have ended or are left out.
     pub fn finished(&self) -> u64 {
+        self.begun() + self.excluded
+    }
+
+    /// Number of ended runs, without those that are left out.
+    pub fn begun(&self) -> u64 {
         self.completed + self.failed + self.refused + self.broken
     }
 
     /// Number of ended runs without valid figures.
     pub fn without_figures(&self) -> u64 {
-        self.finished() - self.completed + self.doubtful
+        self.begun() - self.completed + self.doubtful
     }
 
     /// Counts a run; whether its figures are valid.
@@ -61,10 +68,13 @@ impl Census {
             Status::Completed => &mut self.completed,
             Status::Failed => &mut self.failed,
             Status::Refused => &mut self.refused,
+            Status::Excluded => &mut self.excluded,
             Status::Broken => &mut self.broken,
         } += 1;
         if row.status != Status::Completed {
-            self.remember(row);
+            if row.status != Status::Excluded {
+                self.remember(row);
+            }
             return false;
         }
         let mut counts = true;
@@ -106,6 +116,7 @@ impl Census {
         self.completed += later.completed;
         self.failed += later.failed;
         self.refused += later.refused;
+        self.excluded += later.excluded;
         self.broken += later.broken;
         self.doubtful += later.doubtful;
         self.other_reasons += later.other_reasons;

@@ -99,8 +99,8 @@ impl Journal {
     }
 
     /// The same after a look at all bytes of all parts.
-    fn checked(mut self) -> Result<Self, Problem> {
-        self.parts.iter_mut().try_for_each(Part::check)?;
+    fn checked(self) -> Result<Self, Problem> {
+        self.parts.iter().try_for_each(Part::check)?;
         Ok(self)
     }
 
@@ -223,7 +223,7 @@ impl Journal {
         parts.flat_map(|part| &part.about.runs)
     }
 
-    /// Outcomes of the finished samples and their wall time in s: from the descriptions of parts where these count as a whole.
+    /// Outcomes of the finished samples and the time of threads for them in s: from the descriptions of parts where these count as a whole.
     ///
     /// # Errors
     /// As [`Journal::each_row`].
@@ -233,11 +233,11 @@ impl Journal {
             match part {
                 Some(part) if part.about.samples() == samples => {
                     census.add(&part.about.census);
-                    spent_s += part.about.wall_time_s;
+                    spent_s += part.about.thread_time_s;
                 }
                 part => self.each_row_of(part, &samples, &mut |row| {
                     census.see(&row);
-                    spent_s += row.wall_time_s;
+                    spent_s += row.thread_time_s();
                     Ok(())
                 })?,
             }

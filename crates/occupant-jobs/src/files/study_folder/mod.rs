@@ -17,6 +17,7 @@ pub mod row;
 pub mod shard;
 pub mod table;
 pub mod texts;
+pub mod waiting;
 
 pub use block::Block;
 pub use census::Census;
@@ -32,3 +33,4 @@ pub use row::{Row, Status};
 pub use shard::Shard;
 pub use table::StudyTable;
 pub use texts::{NamedBy, Texts};
+pub use waiting::Waiting;

@@ -9,6 +9,7 @@ use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
@@ -46,8 +47,9 @@ pub struct About {
     pub runs: BTreeMap<String, String>,
     /// Outcomes of the runs.
     pub census: Census,
-    /// Wall time of all runs, s.
-    pub wall_time_s: f64,
+    /// Time of threads for all runs, s: [`Row::thread_time_s`].
+    #[serde(alias = "wall_time_s")]
+    pub thread_time_s: f64,
 }
 
 /// A part that is there.
@@ -57,8 +59,8 @@ pub struct Part {
     pub path: PathBuf,
     /// Its description.
     pub about: About,
-    /// Whether all its bytes have been checked.
-    is_checked: bool,
+    /// Set once all its bytes have been checked.
+    checked: Arc<OnceLock<()>>,
 }
 
 impl About {
@@ -73,13 +75,13 @@ impl About {
             last: samples.end.saturating_sub(1),
             runs: BTreeMap::new(),
             census: Census { planned: samples.end - samples.start, ..Census::default() },
-            wall_time_s: 0.0,
+            thread_time_s: 0.0,
         }
     }
 
     /// Counts a row; whether its figures are valid.
     pub fn see(&mut self, row: &Row) -> bool {
-        self.wall_time_s += row.wall_time_s;
+        self.thread_time_s += row.thread_time_s();
         self.census.see(row)
     }
 
@@ -105,18 +107,18 @@ impl Part {
         if about.study != study {
             return Err(damaged("is a part of another sweep"));
         }
-        Ok(Some(Part { path: path.to_owned(), about, is_checked: false }))
+        Ok(Some(Part { path: path.to_owned(), about, checked: Arc::default() }))
     }
 
     /// Checks all bytes, once.
     ///
     /// # Errors
     /// A file that was changed; an error of the operating system.
-    pub fn check(&mut self) -> Result<(), Problem> {
-        if !self.is_checked {
+    pub fn check(&self) -> Result<(), Problem> {
+        if self.checked.get().is_none() {
             self.refuse_damage()?;
         }
-        self.is_checked = true;
+        self.checked.get_or_init(|| ());
         Ok(())
     }
 
@@ -141,9 +143,7 @@ impl Part {
         samples: &Range<u64>,
         see: &mut impl FnMut(Row) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        if !self.is_checked {
-            self.refuse_damage()?;
-        }
+        self.check()?;
         let table = StoredTable::open(&self.path).map_err(Problem::io("read", &self.path))?;
         let inputs = table.columns().skip(1).take_while(|name| *name != "status").count();
         let mut next = self.about.first;
@@ -297,11 +297,11 @@ mod tests {
     fn a_part_holds_its_rows_to_the_bit_and_what_they_are_of() {
         let (_there, path, study) = part();
         assert_eq!(read(&path, &study).unwrap(), (3..43).map(row).collect::<Vec<_>>());
-        let mut part = Part::open(&path, &study).unwrap().unwrap();
+        let part = Part::open(&path, &study).unwrap().unwrap();
         part.check().unwrap();
         assert_eq!(part.about.samples(), 3..43);
         assert_eq!((part.about.census.planned, part.about.census.finished()), (40, 40));
-        assert_eq!(part.about.wall_time_s, 10.0);
+        assert_eq!(part.about.thread_time_s, 10.0);
         assert!(Part::open(&path, "other").unwrap_err().to_string().contains("another sweep"));
         assert!(Part::open(&path.with_extension("none"), &study).unwrap().is_none());
     }

@@ -63,7 +63,7 @@ pub enum Problem {
         path: PathBuf,
     },
     /// Another process is working in the folder.
-    #[error("another process is working in {}: it {doing}\n = help: wait for it (`occupant sweep --wait` does), or choose another folder", .folder.display())]
+    #[error("another process is working in {}: it {doing}\n = help: wait for it (--wait does), or choose another folder", .folder.display())]
     Busy {
         /// The folder.
         folder: PathBuf,

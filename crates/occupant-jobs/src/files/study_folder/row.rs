@@ -1,6 +1,7 @@
 //! One sample's line of the table, and of the journal.
 
 use occupant_core::results::summary::Caveat;
+use occupant_core::run::batch::Kernel;
 use occupant_scenario::ending::Ending;
 use occupant_study::engine::Finished;
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,8 @@ pub enum Status {
     Failed,
     /// Its scenario was refused: nothing was run.
     Refused,
+    /// A constraint of its study leaves it out: nothing was run.
+    Excluded,
     /// The program broke off: a defect.
     Broken,
 }
@@ -33,6 +36,7 @@ impl Status {
             Status::Completed => "completed",
             Status::Failed => "failed",
             Status::Refused => "refused",
+            Status::Excluded => "excluded",
             Status::Broken => "broken",
         }
     }
@@ -68,6 +72,7 @@ impl Row {
             Ending::Completed | Ending::OutOfBalance(_) => (Status::Completed, String::new()),
             Ending::Failed(reason) => (Status::Failed, reason.clone()),
             Ending::Refused(reason) => (Status::Refused, reason.clone()),
+            Ending::Excluded(reason) => (Status::Excluded, reason.clone()),
             Ending::Broken(reason) => (Status::Broken, reason.clone()),
         };
         let kernel = run.ran.as_ref().map_or("", |ran| ran.kernel.name()).to_owned();
@@ -89,6 +94,11 @@ impl Row {
         own.extend(cells.by_ref().take(figures));
         let wall_time_s = cells.next()?.number()?;
         Some(Row { index, status, reason, caveats, cells: own, wall_time_s, kernel: words(cells.next()?) })
+    }
+
+    /// Time that its thread had for it, s: its wall time over the number of runs side by side.
+    pub fn thread_time_s(&self) -> f64 {
+        self.wall_time_s / Kernel::named(&self.kernel).map_or(1, Kernel::lanes) as f64
     }
 
     /// Adds the caveats of its run.
