@@ -11,6 +11,7 @@ use super::flags::sweep as flags;
 use crate::base::{Done, Existing, Failure, UnitsArg, listen, print, program, progress, say};
 use occupant_files::table::Form;
 use occupant_jobs::files::scenario::warn;
+use occupant_jobs::files::store::is_address;
 use occupant_jobs::files::study_folder::block::Block;
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::texts::Texts;
@@ -36,9 +37,14 @@ pub(crate) struct Args {
     #[arg(value_name = "STUDY", required = true)]
     study: Option<PathBuf>,
 
-    /// The folder for the results; named after the study, in the current folder, if absent
+    /// The folder for the results; named after the study, in the current folder, if absent. Or the address of an object store, such as
+    /// s3://BUCKET/PREFIX (also gs://, az://, file://), if this build has the feature `object-store`
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
+
+    /// With an address: the folder on this machine for what is not finished; one in the folder for temporary files if absent
+    #[arg(long, value_name = "FOLDER")]
+    scratch: Option<PathBuf>,
 
     /// Change a value in all samples, such as --set time.end='250 ms'. May be repeated
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
@@ -153,9 +159,13 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Option<Sweep>, Failu
     let samples = plan.manifest.samples;
     let range = flags::range(args.range.as_deref(), samples)?;
     let block = Block::new(shard.range(&range));
-    let is_whole = block.as_ref().is_some_and(|block| block.is_all_of(samples));
+    let is_whole = !is_address(output) && block.as_ref().is_some_and(|block| block.is_all_of(samples));
     let keep = kept::chosen(args.keep.as_deref(), &plan)?;
     if args.restart && !is_whole {
+        let found = "--restart with an address";
+        if is_address(output) {
+            return Err(Failure::with_help(found, "remove the files there yourself, or choose another prefix"));
+        }
         return Err(Failure::with_help(
             "--restart with a part of the study would remove the results of the others",
             "remove the folder before you start the first part",
@@ -174,9 +184,11 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Option<Sweep>, Failu
     let Some(block) = block else {
         return Ok(None);
     };
+    // a preview looks at no store
+    let folder = if args.dry_run { Folder::at(output) } else { Folder::given(output, args.scratch.as_deref())? };
     Ok(Some(Sweep {
         csv: args.csv || (plan.study.csv && is_whole),
-        folder: Folder::at(output),
+        folder,
         engine: args.engine.engine()?,
         kernel: args.engine.kernel.clone(),
         interrupt: listen("stopping; press Ctrl-C again to stop at once"),

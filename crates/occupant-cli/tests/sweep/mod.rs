@@ -10,6 +10,7 @@ mod parts;
 mod rated;
 mod refused;
 mod shards;
+mod stored;
 mod table;
 
 use std::collections::BTreeMap;

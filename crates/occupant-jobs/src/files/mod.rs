@@ -3,4 +3,5 @@
 pub mod edited;
 pub mod history;
 pub mod scenario;
+pub mod store;
 pub mod study_folder;

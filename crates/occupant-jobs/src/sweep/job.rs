@@ -47,9 +47,11 @@ impl Sweep {
     /// A folder of something else, or in which another process is at work; interrupted; an error of the operating system.
     pub fn run(&self) -> Result<(Done, String), Failure> {
         let Sweep { plan, folder, .. } = self;
-        let manifest = &plan.manifest;
         let held = self.claim()?;
         warn_unlocked(&held, "computing the same samples", self.show.quiet);
+        if self.is_in_store()? {
+            return Ok((Done::Well, String::new()));
+        }
         kept::prepare(&self.keep, folder)?;
         let samples = self.block.samples.clone();
         let sums = self.look_over()?;
@@ -71,21 +73,40 @@ impl Sweep {
         if self.is_whole() {
             return self.finish(&journal, &progress, sums);
         }
-        parts::write(folder, &journal, manifest, &self.block, sums.runs_of(&samples))?;
+        self.hand_in(&journal, progress.computed, &sums)
+    }
+
+    /// Whether the store has the part already, which is said.
+    fn is_in_store(&self) -> Result<bool, Failure> {
+        let Sweep { folder, block, .. } = self;
+        let is_there = folder.has_stored(block)?;
+        if is_there {
+            if !self.show.quiet {
+                say(&format!("{block}: finished, in {}", folder.shown()));
+            }
+            folder.clear_block(block)?;
+        }
+        Ok(is_there)
+    }
+
+    /// Writes the part of a finished range, of which so many samples were computed now.
+    fn hand_in(&self, journal: &Journal, computed: u64, sums: &Checksums) -> Result<(Done, String), Failure> {
+        let Sweep { folder, block, plan, .. } = self;
+        let runs = sums.runs_of(&block.samples);
+        parts::write(folder, journal, &plan.manifest, block, &runs)?;
+        folder.put_part(block, &plan.manifest, &runs)?;
         if !self.show.quiet {
-            let count = samples.end - samples.start;
+            let count = block.samples.end - block.samples.start;
             say(&format!(
-                "{}: all {count} are finished, {} of them now; when all parts of the study are, make the table with `occupant sweep merge {}`",
-                self.block,
-                progress.computed,
-                quoted(folder.path.display())
+                "{block}: all {count} are finished, {computed} of them now; when all parts of the study are, make the table with `occupant sweep merge {}`",
+                quoted(folder.shown())
             ));
         }
         Ok((Done::Well, String::new()))
     }
 
     fn is_whole(&self) -> bool {
-        self.block.is_all_of(self.plan.manifest.samples)
+        self.folder.store.is_none() && self.block.is_all_of(self.plan.manifest.samples)
     }
 
     /// Claims the folder, when others have left it if they may be waited for.

@@ -18,15 +18,15 @@ pub fn write(
     journal: &Journal,
     manifest: &Manifest,
     block: &Block,
-    runs: BTreeMap<String, String>,
+    runs: &BTreeMap<String, String>,
 ) -> Result<(), Failure> {
-    if journal.only_part().is_some_and(|part| part.about.runs == runs) {
+    if journal.only_part().is_some_and(|part| part.about.runs == *runs) {
         return Ok(folder.clear_block(block)?);
     }
     let (beside, path) = (folder.beside_journal(block, "parquet"), folder.part(block));
     let mut table = StudyTable::create([(beside.clone(), Form::Parquet)], Existing::Replace, manifest)?;
     let mut about = About::new(manifest, &block.samples);
-    about.runs = runs;
+    about.runs.clone_from(runs);
     journal.each_row(|row| {
         about.see(&row);
         table.row(&row)

@@ -46,7 +46,7 @@ pub fn open_with(
     by: MadeBy,
     read: fn(&[Folder], &Manifest) -> Result<Journal, Problem>,
 ) -> Result<Stored, Failure> {
-    let folders: Vec<Folder> = folders.iter().map(|f| Folder::at(f)).collect();
+    let folders: Vec<Folder> = folders.iter().map(|given| Folder::given(given, None)).collect::<Result<_, _>>()?;
     let manifest = common_manifest(&folders)?;
     let (Some(first), Some(study)) = (folders.first(), manifest.texts.first()) else {
         return Err(Failure::plain("the folder has no study"));
@@ -92,7 +92,7 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let manifest_of = |folder: &Folder| {
         folder.manifest()?.ok_or_else(|| {
             Failure::with_help(
-                format!("{} does not contain a sweep", folder.path.display()),
+                format!("{} does not contain a sweep", folder.shown()),
                 "give a folder written by `occupant sweep STUDY -o FOLDER`",
             )
         })
@@ -106,8 +106,8 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
             let lines = common.differences(&other, |t| text(first, t), |t| text(folder, t));
             return Err(Failure::plain(format!(
                 "{} and {} contain parts of different sweeps:\n   {}",
-                first.path.display(),
-                folder.path.display(),
+                first.shown(),
+                folder.shown(),
                 lines.join("\n   ")
             )));
         }

@@ -8,6 +8,7 @@ use occupant_core::run::batch::Kernel;
 use crate::base::{Existing, Failure, listen, progress, say};
 use crate::commands::flags::sweep::engine;
 use occupant_jobs::ensemble::bands::choose;
+use occupant_jobs::files::store::is_address;
 use occupant_jobs::files::study_folder::checksums::Checksums;
 use occupant_jobs::study::bands::StudyBands;
 use occupant_jobs::sweep::stored::{MadeBy, open};
@@ -41,6 +42,10 @@ pub(crate) struct BandsArgs {
 
 /// Writes the bands of all samples that have none yet.
 pub(crate) fn bands(args: &BandsArgs) -> Result<(), Failure> {
+    if is_address(&args.folder) {
+        let found = format!("{} is no folder of this machine", args.folder.display());
+        return Err(Failure::with_help(found, "merge it into one: occupant sweep merge ADDRESS -o FOLDER"));
+    }
     let opened = open(std::slice::from_ref(&args.folder), MadeBy::AnyProgram)?;
     let study = &opened.plan.study;
     if study.ensemble.is_none() {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::base::{Failure, UnitsArg, deliver, json, print, progress};
+use occupant_jobs::files::store::is_address;
 use occupant_jobs::study::{Wanted, answer, matrix_text, page, paragraphs};
 
 /// Make an HTML page of a study: which inputs matter, how much, and the worst cases
@@ -11,7 +12,7 @@ use occupant_jobs::study::{Wanted, answer, matrix_text, page, paragraphs};
 /// written to REPORT.parquet beside it, and the samples to REPORT-samples.parquet.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReportArgs {
-    /// The folder of `occupant sweep`, or several folders with shards of one sweep
+    /// The folder of `occupant sweep`, or several folders with shards of one sweep, or addresses of object stores
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
 
@@ -45,6 +46,9 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let Some(first) = args.folders.first() else {
         return Err(Failure::plain("give the folder of a sweep"));
     };
+    if let (None, true) = (&args.output, is_address(first)) {
+        return Err(Failure::with_help("the page of an object store has no folder", "give -o FILE.html"));
+    }
     let page_at = args.output.clone().unwrap_or_else(|| first.join("report.html"));
     let units = |scenario| args.units.or(Some(scenario));
     let (force, is_unasked) = (args.force, args.output.is_none());

@@ -9,6 +9,7 @@ use occupant_core::run::batch::Kernel;
 use crate::base::{Done, Failure, UnitsArg, note, print, quoted};
 use crate::commands::flags::sweep::engine;
 use occupant_jobs::base::Interrupt;
+use occupant_jobs::files::store::is_address;
 use occupant_jobs::files::study_folder::checksums::{Checksums, sample_of};
 use occupant_jobs::files::study_folder::folder::Folder;
 use occupant_jobs::files::study_folder::journal::Journal;
@@ -24,7 +25,7 @@ use occupant_jobs::sweep::{kept, rating, results};
 /// Lists missing samples, if any. Of samples that stand in two parts the first counts.
 #[derive(Debug, clap::Args)]
 pub(crate) struct MergeArgs {
-    /// The folder of the sweep, or several folders with parts of one sweep
+    /// The folder of the sweep, or several folders with parts of one sweep, or addresses of object stores
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
 
@@ -58,12 +59,16 @@ pub(crate) struct MergeArgs {
 
 /// Makes one table of shards.
 pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
-    let opened = open_with(&args.folders, MadeBy::ThisProgram, Journal::read_parts)?;
-    let Stored { manifest, plan, journal, .. } = opened;
-    refuse_gaps(&journal, &manifest)?;
     let Some(target) = args.output.as_ref().or(args.folders.first()) else {
         return Err(Failure::plain("give the folder of a sweep"));
     };
+    if is_address(target) {
+        let found = format!("the table is not written to {}", target.display());
+        return Err(Failure::with_help(found, "give -o FOLDER"));
+    }
+    let opened = open_with(&args.folders, MadeBy::ThisProgram, Journal::read_parts)?;
+    let Stored { manifest, plan, journal, .. } = opened;
+    refuse_gaps(&journal, &manifest)?;
     let target = Folder::at(target);
     std::fs::create_dir_all(&target.path).map_err(Problem::io("create", &target.path))?;
     target.refuse_other_results(&manifest)?;
@@ -103,5 +108,9 @@ fn others(folders: &[PathBuf], target: &Folder, journal: &Journal) -> Result<Vec
         journal.runs_in(&folder).for_each(|(name, sum)| sums.learn(name, sum, true));
         Ok((folder, sums))
     };
-    folders.iter().filter(|path| **path != target.path).map(|path| opened(Folder::at(path))).collect()
+    folders
+        .iter()
+        .filter(|path| **path != target.path && !is_address(path))
+        .map(|path| opened(Folder::at(path)))
+        .collect()
 }

@@ -15,7 +15,7 @@ use occupant_jobs::sweep::words::ended;
 /// The sweep may be running. Nothing is written.
 #[derive(Debug, clap::Args)]
 pub(crate) struct StatusArgs {
-    /// The folder of the sweep, or several folders with parts of one sweep
+    /// The folder of the sweep, or several folders with parts of one sweep, or addresses of object stores
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
 

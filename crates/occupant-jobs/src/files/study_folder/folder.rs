@@ -26,6 +26,7 @@ use super::piece::pieces_of;
 use super::problem::Problem;
 use crate::base::names::stays_within;
 use crate::base::{Existing, file_name, input_file, is_at, partial_path, remove_if_there, sha256, write_whole};
+use crate::files::store::Store;
 
 /// How often a lock file that was removed is made again.
 const MOST_TRIES: usize = 100;
@@ -37,7 +38,7 @@ const INPUTS: &str = "inputs";
 pub(super) const JOURNAL: &str = "journal";
 /// Folder of the parts of the table.
 pub(super) const PARTS: &str = "parts";
-const RUNS: &str = "runs";
+pub(super) const RUNS: &str = "runs";
 /// Rating of the runs: the filled template, and what `measures --json` prints.
 const RATING: [&str; 2] = ["rating.xlsx", "rating.json"];
 
@@ -86,6 +87,8 @@ const OPTIMUM: &Holds = &Holds {
 pub struct Folder {
     /// The path.
     pub path: PathBuf,
+    /// The store in which its finished ranges are, if it is the folder for an address.
+    pub store: Option<Store>,
     holds: &'static Holds,
 }
 
@@ -103,20 +106,20 @@ pub struct Held {
 impl Folder {
     /// The folder of a sweep at this path, existing or not.
     pub fn at(path: &Path) -> Self {
-        Folder { path: path.to_owned(), holds: SWEEP }
+        Folder { path: path.to_owned(), store: None, holds: SWEEP }
     }
 
     /// The folder of a fit at this path, existing or not.
     pub fn of_fit(path: &Path) -> Self {
-        Folder { path: path.to_owned(), holds: FIT }
+        Folder { path: path.to_owned(), store: None, holds: FIT }
     }
 
     /// The folder of an optimisation at this path, existing or not.
     pub fn of_optimum(path: &Path) -> Self {
-        Folder { path: path.to_owned(), holds: OPTIMUM }
+        Folder { path: path.to_owned(), store: None, holds: OPTIMUM }
     }
 
-    fn manifest_path(&self) -> PathBuf {
+    pub(super) fn manifest_path(&self) -> PathBuf {
         self.path.join(self.holds.manifest)
     }
 

@@ -156,6 +156,7 @@ impl Journal {
             paths_in(&folder.journal(), ".rows")?.into_iter().try_for_each(|path| self.add_piece(path))?;
         }
         for folder in folders {
+            folder.stored_parts(&self.study)?.into_iter().try_for_each(|part| self.take(part))?;
             let parts = paths_in(&folder.parts(), ".parquet")?;
             parts.iter().try_for_each(|path| self.add_part(path))?;
         }
@@ -169,14 +170,16 @@ impl Journal {
     }
 
     fn add_part(&mut self, path: &Path) -> Result<(), Problem> {
-        if let Some(part) = Part::open(path, &self.study)? {
-            if part.about.last >= self.samples {
-                let found = format!("has samples beyond the study's {}", self.samples);
-                return Err(Problem::Damaged { path: path.to_owned(), found });
-            }
-            self.finished.add(part.about.samples());
-            self.parts.push(part);
+        Part::open(path, &self.study)?.map_or(Ok(()), |part| self.take(part))
+    }
+
+    fn take(&mut self, part: Part) -> Result<(), Problem> {
+        if part.about.last >= self.samples {
+            let found = format!("has samples beyond the study's {}", self.samples);
+            return Err(Problem::Damaged { path: part.path, found });
         }
+        self.finished.add(part.about.samples());
+        self.parts.push(part);
         Ok(())
     }
 

@@ -15,6 +15,7 @@ pub mod piece;
 pub mod problem;
 pub mod row;
 pub mod shard;
+mod stored;
 pub mod table;
 pub mod texts;
 pub mod waiting;

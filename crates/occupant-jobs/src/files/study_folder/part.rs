@@ -5,7 +5,7 @@
 //! metadata on; both take the digits of both as zeros. So the description is believed without a look at the rows.
 
 use std::collections::BTreeMap;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -14,10 +14,12 @@ use std::sync::{Arc, OnceLock};
 use serde::{Deserialize, Serialize};
 
 use super::census::Census;
+use super::folder::Folder;
 use super::manifest::Manifest;
 use super::problem::Problem;
 use super::row::Row;
-use crate::base::{Failure, PartialFile, each_portion};
+use crate::base::{Failure, PartialFile, each_portion, file_name};
+use crate::files::store::Store;
 use occupant_files::table::StoredTable;
 
 /// Name of the metadata with the description.
@@ -29,6 +31,8 @@ const UNKNOWN: &str = "00000000";
 const MOST_OF_END: u64 = 256 << 20;
 /// Bytes behind the metadata of a Parquet file: its length and the file's mark.
 const TAIL: u64 = 8;
+/// Bytes fetched at a time.
+const AT_ONCE: u64 = 8 << 20;
 
 /// What a part says of itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,6 +63,8 @@ pub struct Part {
     pub path: PathBuf,
     /// Its description.
     pub about: About,
+    /// The store that it is in, and its name and size there; its path is where it is fetched to.
+    stored: Option<(Store, String, u64)>,
     /// Set once all its bytes have been checked.
     checked: Arc<OnceLock<()>>,
 }
@@ -89,6 +95,13 @@ impl About {
     pub fn samples(&self) -> Range<u64> {
         self.first..self.last + 1
     }
+
+    /// The description at the end of a file, if that is whole and of this study.
+    fn of_end(end: Option<End>, study: &str, path: &Path) -> Result<About, Problem> {
+        let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
+        let about = end.and_then(|end| end.about()).ok_or_else(|| damaged("was changed after it was written"))?;
+        if about.study == study { Ok(about) } else { Err(damaged("is a part of another sweep")) }
+    }
 }
 
 impl Part {
@@ -101,13 +114,20 @@ impl Part {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             opened => opened.map_err(Problem::io("read", path))?,
         };
-        let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
         let end = End::read(&mut file).map_err(Problem::io("read", path))?;
-        let about = end.and_then(|end| end.about()).ok_or_else(|| damaged("was changed after it was written"))?;
-        if about.study != study {
-            return Err(damaged("is a part of another sweep"));
-        }
-        Ok(Some(Part { path: path.to_owned(), about, checked: Arc::default() }))
+        let about = About::of_end(end, study, path)?;
+        Ok(Some(Part { path: path.to_owned(), about, stored: None, checked: Arc::default() }))
+    }
+
+    /// The part with this name in a store, by its description; it is fetched to read its rows.
+    ///
+    /// # Errors
+    /// As [`Part::open`]; what the store says.
+    pub fn in_store(folder: &Folder, store: &Store, name: &str, size: u64, study: &str) -> Result<Part, Problem> {
+        let path = folder.journal().join(format!("{}.{}.fetched", file_name(Path::new(name)), std::process::id()));
+        let end = End::of(size, |bytes| store.range(name, bytes)).map_err(Problem::io("read", Path::new(name)))?;
+        let about = About::of_end(end, study, &Path::new(store.address()).join(name))?;
+        Ok(Part { path, about, stored: Some((store.clone(), name.to_owned(), size)), checked: Arc::default() })
     }
 
     /// Checks all bytes, once.
@@ -143,6 +163,7 @@ impl Part {
         samples: &Range<u64>,
         see: &mut impl FnMut(Row) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
+        let _here = self.fetched()?;
         self.check()?;
         let table = StoredTable::open(&self.path).map_err(Problem::io("read", &self.path))?;
         let inputs = table.columns().skip(1).take_while(|name| *name != "status").count();
@@ -165,8 +186,32 @@ impl Part {
         if next == self.about.samples().end { Ok(()) } else { Err(self.without_row().into()) }
     }
 
+    /// Fetches it from its store for a while.
+    fn fetched(&self) -> Result<Option<Fetched<'_>>, Problem> {
+        let Some((store, name, size)) = &self.stored else { return Ok(None) };
+        let here = Fetched(&self.path);
+        let fetch = || {
+            self.path.parent().map_or(Ok(()), fs::create_dir_all)?;
+            let mut file = File::create(&self.path)?;
+            let mut starts = (0..*size).step_by(AT_ONCE as usize);
+            starts.try_for_each(|from| file.write_all(&store.range(name, from..(from + AT_ONCE).min(*size))?))
+        };
+        fetch().map_err(Problem::io("fetch", &Path::new(store.address()).join(name)))?;
+        Ok(Some(here))
+    }
+
     fn without_row(&self) -> Problem {
         Problem::Damaged { path: self.path.clone(), found: "has other rows than it says".to_owned() }
+    }
+}
+
+/// A file of this machine that is not needed for long.
+struct Fetched<'p>(&'p Path);
+
+impl Drop for Fetched<'_> {
+    fn drop(&mut self) {
+        // one that cannot be removed is replaced the next time
+        let _stays = fs::remove_file(self.0);
     }
 }
 
@@ -179,20 +224,25 @@ struct End {
 impl End {
     /// Reads it; none of a file that has none.
     fn read(file: &mut File) -> io::Result<Option<End>> {
-        let length = file.metadata()?.len();
-        let mut tail = [0; TAIL as usize];
+        End::of(file.metadata()?.len(), |bytes| {
+            file.seek(SeekFrom::Start(bytes.start))?;
+            let mut read = Vec::new();
+            file.take(bytes.end - bytes.start).read_to_end(&mut read)?;
+            Ok(read)
+        })
+    }
+
+    /// The same of a file of so many bytes, some of which `read` gives.
+    fn of(length: u64, mut read: impl FnMut(Range<u64>) -> io::Result<Vec<u8>>) -> io::Result<Option<End>> {
         let Some(at) = length.checked_sub(TAIL) else { return Ok(None) };
-        file.seek(SeekFrom::Start(at))?;
-        file.read_exact(&mut tail)?;
-        let [a, b, c, d, mark @ ..] = tail;
+        let tail = read(at..length)?;
+        let Ok([a, b, c, d, mark @ ..]) = <[u8; TAIL as usize]>::try_from(tail) else { return Ok(None) };
         let size = u64::from(u32::from_le_bytes([a, b, c, d])) + TAIL;
         if mark != *b"PAR1" || size > length || size > MOST_OF_END {
             return Ok(None);
         }
-        let from = file.seek(SeekFrom::Start(length - size))?;
-        let mut bytes = Vec::new();
-        file.take(size).read_to_end(&mut bytes)?;
-        Ok(Some(End { from, bytes }))
+        let from = length - size;
+        Ok(Some(End { from, bytes: read(from..length)? }))
     }
 
     /// Places of the digits of both checksums, of the file first.

@@ -70,6 +70,16 @@ pub enum Problem {
         /// Its work.
         doing: String,
     },
+    /// An object store that does not do what is asked.
+    #[error(
+        "{address}: {found}\n = help: look at address, network and the keys of the environment, and give the same command again"
+    )]
+    Store {
+        /// Its address.
+        address: String,
+        /// What it says.
+        found: String,
+    },
     /// Samples are unfinished.
     #[error(
         "{} of {samples} samples are missing: {}\n = help: run the same `occupant sweep` command again to resume, or with --range {}",
@@ -111,7 +121,7 @@ impl From<Problem> for Failure {
     fn from(problem: Problem) -> Self {
         let message = format!("error: {problem}");
         match problem {
-            Problem::Incomplete { .. } | Problem::Unmended { .. } => Failure::BrokeOff(message),
+            Problem::Incomplete { .. } | Problem::Unmended { .. } | Problem::Store { .. } => Failure::BrokeOff(message),
             Problem::Busy { .. } => Failure::Busy(message),
             Problem::File(file) if file.broke_off() => Failure::BrokeOff(message),
             _ => Failure::CouldNotRun(message),
