@@ -7,7 +7,8 @@ use crate::files::study_folder::Role;
 use crate::sweep::Plan;
 use occupant_files::table::{Form, Kind, TableFile};
 
-/// Writes one row for each sample that no constraint excludes, and gives their number; the columns are named as a table of samples names them, in SI units.
+/// Writes one row for each sample that no constraint excludes, and gives their number; the columns are named as a table of samples
+/// names them, in SI units.
 ///
 /// # Errors
 /// An ending that is no table's; a file that is there and may not be replaced; an error of the operating system.

@@ -34,7 +34,9 @@ impl Store {
     pub fn open(address: &str) -> Result<Store, Failure> {
         let refused = |error: &dyn std::fmt::Display| Failure::with_help(format!("{address}: {error}"), FORMS);
         let url = address.trim_end_matches('/').parse().map_err(|error| refused(&error))?;
-        let settings = std::env::vars().map(|(name, value)| (name.to_ascii_lowercase(), value));
+        // no setting has other text than Unicode
+        let settings = std::env::vars_os()
+            .filter_map(|(name, value)| Some((name.to_str()?.to_ascii_lowercase(), value.into_string().ok()?)));
         let (store, prefix) = parse_url_opts(&url, settings).map_err(|error| refused(&error))?;
         let runtime = Builder::new_current_thread().enable_all().build().map_err(|error| refused(&error))?;
         let address = address.trim_end_matches('/').to_owned();
@@ -73,6 +75,18 @@ impl Store {
         let mut all: Vec<_> = all.into_iter().filter_map(|file| Some((name(&file.location)?, file.size))).collect();
         all.sort();
         Ok(all)
+    }
+
+    /// Whether a file is there.
+    ///
+    /// # Errors
+    /// What the store says.
+    pub fn has(&self, name: &str) -> io::Result<bool> {
+        let Opened { store, runtime, .. } = &*self.0;
+        match runtime.block_on(store.head(&self.key(name))).map_err(|error| self.said(error)) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+            found => found.map(|_| true),
+        }
     }
 
     /// Some bytes of a file.

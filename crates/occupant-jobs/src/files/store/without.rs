@@ -34,6 +34,14 @@ impl Store {
         match self.0 {}
     }
 
+    /// Whether a file is there.
+    ///
+    /// # Errors
+    /// None.
+    pub fn has(&self, _name: &str) -> io::Result<bool> {
+        match self.0 {}
+    }
+
     /// Some bytes of a file.
     ///
     /// # Errors

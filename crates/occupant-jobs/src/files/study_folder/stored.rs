@@ -1,7 +1,7 @@
 //! A sweep in an object store: what the folder on this machine fetches from there, and puts there.
 //!
-//! The store has manifest, copies, parts and the whole runs of finished ranges under the names of a folder. Journals and what else is
-//! not finished stay on this machine.
+//! The store has manifest, copies, parts and the whole runs of finished ranges under the names of a folder. Journals and what
+//! else is not finished stay on this machine.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -82,15 +82,13 @@ impl Folder {
         listed.map(|(name, size)| Part::in_store(self, store, &format!("{PARTS}/{name}"), size, study)).collect()
     }
 
-    /// Whether the store has the part of a range.
+    /// Whether the store has the part of a range; it looks at no other.
     ///
     /// # Errors
     /// What the store says.
     pub fn has_stored(&self, block: &Block) -> Result<bool, Failure> {
         let Some(store) = &self.store else { return Ok(false) };
-        let name = file_name(&self.part(block));
-        let listed = store.list(PARTS).map_err(self.said())?;
-        Ok(listed.iter().any(|(there, _)| *there == name))
+        Ok(store.has(&format!("{PARTS}/{}", file_name(&self.part(block)))).map_err(self.said())?)
     }
 
     /// Puts the part of a finished range into the store, after the whole runs that belong to it, and removes them here.
