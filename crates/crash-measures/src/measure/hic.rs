@@ -14,7 +14,8 @@
 //! record. On two straight flanks h follows from a quadratic equation. Most pairs of flanks need no
 //! look: a window beats the best so far only if I exceeds best^0.4·τ^0.6. Where no sample is negative,
 //! I only grows, so that the next sample with enough of it is found by bisection; else one sample more
-//! adds at most a_max·dt, so the shortfall says how many can be skipped.
+//! adds at most a_max·dt, so the shortfall says how many can be skipped. And h of a better window is at
+//! least 0.6·best^0.4·W^−0.4: flanks that end below it need no look either.
 
 use crate::signal::{CumulativeIntegral, STANDARD_GRAVITY_MPS2, SignalError, require_positive, whole_steps};
 
@@ -94,6 +95,10 @@ struct Search<'a> {
     best_04: f64,
     /// What a window must gain at least to be better: I·τ^−0.6 > best^0.4 and I ≤ a_max·τ.
     least_mps: f64,
+    /// Level that both ends of a better window have at least, unless it is of the largest length, m/s².
+    least_level: f64,
+    /// 0.6·W^−0.4.
+    level_of_best: f64,
 }
 
 /// A rising or falling interval of the line as functions of its level h: t = time + slowness·h, ∫ a dt = integral +
@@ -120,22 +125,19 @@ impl<'a> Search<'a> {
             best: Hic { value: 0.0, start_s: 0.0, end_s: 0.0 },
             best_04: 0.0,
             least_mps: 0.0,
+            least_level: 0.0,
+            level_of_best: 0.6 * libm::pow(limit_s, -0.4),
             only_grows: a.iter().all(|a| *a >= 0.0),
         }
     }
 
     fn best(mut self) -> Hic {
         if self.peak > 0.0 {
-            self.try_longest();
-            // a coarse pass first: a good best lets the full pass skip most windows
+            // a coarse pass first: a good best lets what follows skip most windows
             let coarse = (self.tau_06.len() / 16).max(1);
-            for stride in [coarse, 1] {
-                for start in (0..self.a.len()).step_by(stride) {
-                    if self.may_win(start) {
-                        self.try_start(start, stride);
-                    }
-                }
-            }
+            (0..self.a.len()).step_by(coarse).for_each(|start| self.try_samples(start, coarse));
+            self.try_longest();
+            (0..self.a.len()).for_each(|start| self.try_start(start));
         }
         self.best
     }
@@ -148,6 +150,7 @@ impl<'a> Search<'a> {
             self.best_04 = libm::pow(tried.value, 0.4) * STANDARD_GRAVITY_MPS2;
             let ratio = self.best_04 / self.peak;
             self.least_mps = self.best_04 * ratio * ratio.sqrt() * (1.0 - 1e-9);
+            self.least_level = self.best_04 * self.level_of_best * (1.0 - 1e-9);
         }
     }
 
@@ -155,67 +158,90 @@ impl<'a> Search<'a> {
     /// and the largest is where its growth changes sign, or first or last.
     fn try_longest(&mut self) {
         let last_s = self.integral.duration_s() - self.limit_s;
-        let samples_s = || (0..self.a.len()).map(|i| i as f64 * self.dt_s);
-        let starts_s = samples_s().chain(samples_s().map(|t_s| t_s - self.limit_s)).chain([last_s]);
-        let mut starts_s: Vec<f64> = starts_s.filter(|t_s| (0.0..=last_s).contains(t_s)).collect();
-        starts_s.sort_by(f64::total_cmp);
-        let (mut before_s, mut growth_before) = (0.0, 0.0);
-        for start_s in starts_s {
-            let growth = self.integral.value_at(start_s + self.limit_s) - self.integral.value_at(start_s);
-            if growth_before > 0.0 && growth < 0.0 {
-                let crest_s = before_s + (start_s - before_s) * growth_before / (growth_before - growth);
-                self.offer(crest_s, crest_s + self.limit_s);
-                self.offer(before_s, before_s + self.limit_s);
+        let growth =
+            |all: &Self, start_s| all.integral.value_at(start_s + all.limit_s) - all.integral.value_at(start_s);
+        let steps = (self.limit_s / self.dt_s).ceil();
+        let (mut before_s, mut growth_before) = (0.0, Some(0.0));
+        for i in 0..=(last_s / self.dt_s) as usize + 1 {
+            if !self.may_be_longest(i) {
+                growth_before = None;
+                continue;
             }
-            if growth_before * growth <= 0.0 {
-                self.offer(start_s, start_s + self.limit_s);
+            // a start passes a sample, then an end does
+            for start_s in [i as f64 * self.dt_s, (i as f64 + steps) * self.dt_s - self.limit_s] {
+                let (start_s, now) = (start_s.min(last_s), growth(self, start_s.min(last_s)));
+                let before = growth_before.replace(now).unwrap_or(0.0);
+                if before > 0.0 && now < 0.0 {
+                    let crest_s = before_s + (start_s - before_s) * before / (before - now);
+                    self.offer(crest_s, crest_s + self.limit_s);
+                    self.offer(before_s, before_s + self.limit_s);
+                }
+                if before * now <= 0.0 {
+                    self.offer(start_s, start_s + self.limit_s);
+                }
+                before_s = start_s;
             }
-            (before_s, growth_before) = (start_s, growth);
         }
         self.offer(last_s, last_s + self.limit_s);
     }
 
-    /// Whether any window from sample `start`, or on its flanks, can be better than the best.
-    fn may_win(&self, start: usize) -> bool {
-        let end = (start + self.tau_06.len()).min(self.a.len() - 1);
-        let gain = self.integral.at_samples()[end] - self.integral.at_samples()[start];
-        !self.only_grows || gain + 2.0 * self.peak * self.dt_s >= self.least_mps
+    /// Whether a window of the largest length that starts after sample `i` − 1 and before `i` + 1 can be better.
+    fn may_be_longest(&self, i: usize) -> bool {
+        let (sums, last) = (self.integral.at_samples(), self.a.len() - 1);
+        let gain = sums[(i + self.tau_06.len() + 1).min(last)] - sums[i.saturating_sub(1).min(last)];
+        let least = self.best_04 * self.tau_06.last().copied().unwrap_or(0.0);
+        !self.only_grows || gain >= least * (1.0 - 1e-9)
     }
 
-    /// Tries windows from sample `start` to samples `stride` apart, and those whose ends are on the flanks before and
-    /// after, which extend by at most one interval at each end; skips windows that cannot win.
-    fn try_start(&mut self, start: usize, stride: usize) {
-        let one_interval = self.peak * self.dt_s;
-        let rise = self.flank(start, start.checked_sub(1));
+    /// Tries windows from sample `start` to samples `stride` apart.
+    fn try_samples(&mut self, start: usize, stride: usize) {
+        let sums = self.integral.at_samples();
+        let last = (self.tau_06.len() - 1).min(self.a.len() - 1 - start);
+        let wins = |lag: &usize| self.best_04 * self.tau_06[*lag] < sums[start + lag] - sums[start];
+        let most = |a: &usize, b: &usize| {
+            let [a, b] = [a, b].map(|lag| (sums[start + lag] - sums[start]) / self.tau_06[*lag]);
+            a.total_cmp(&b)
+        };
+        if let Some(lag) = (stride..=last).step_by(stride).filter(wins).max_by(most) {
+            self.offer(start as f64 * self.dt_s, (start + lag) as f64 * self.dt_s);
+        }
+    }
+
+    /// Tries windows from the flank before sample `start` to the flanks after all samples within reach; skips those that
+    /// cannot win.
+    fn try_start(&mut self, start: usize) {
+        let rise = if self.a[start] < self.least_level { None } else { self.flank(start, start.checked_sub(1)) };
+        let Some(rise) = rise else { return };
+        // the flanks extend by at most one interval at each end
+        let room = 2.0 * self.peak * self.dt_s;
         let longest = (self.tau_06.len() - 1).min(self.a.len() - 1 - start);
         let mut lag = 0;
         while lag <= longest {
             let end = start + lag;
             let gain = self.integral.at_samples()[end] - self.integral.at_samples()[start];
-            let shortfall = self.best_04 * self.tau_06[lag] - gain;
-            if shortfall < 0.0 {
-                self.offer(start as f64 * self.dt_s, end as f64 * self.dt_s);
+            let shortfall = (self.best_04 * self.tau_06[lag]).max(self.least_mps) - gain - room;
+            if shortfall >= 0.0 {
+                lag = self.next_lag(start, lag, shortfall).max(lag + 1);
+                continue;
             }
-            let shortfall = shortfall - 2.0 * one_interval;
-            if shortfall < 0.0
-                && let (Some(rise), Some(fall)) = (rise, self.flank(end, Some(end + 1).filter(|&i| i < self.a.len())))
+            if self.a[end] >= self.least_level
+                && let Some(fall) = self.flank(end, Some(end + 1).filter(|&i| i < self.a.len()))
             {
                 self.try_flanks(rise, fall);
             }
-            lag = self.next_lag(start, lag, shortfall).max(lag + stride);
+            lag += 1;
         }
     }
 
     /// The next lag of a window that can win, where that of `lag` falls short by so much.
     fn next_lag(&self, start: usize, lag: usize, shortfall: f64) -> usize {
-        let one_interval = self.peak * self.dt_s;
         if !self.only_grows {
-            return lag.saturating_add((shortfall / one_interval) as usize);
+            return lag.saturating_add((shortfall / (self.peak * self.dt_s)) as usize);
         }
         // a longer window must gain more
-        let sums = &self.integral.at_samples()[start..];
-        let needed = self.best_04 * self.tau_06[lag] - 2.0 * one_interval;
-        lag + sums[lag..].partition_point(|sum| sum - sums[0] < needed)
+        let sums = &self.integral.at_samples()[start + lag..];
+        let needed = sums[0] + shortfall;
+        lag + sums.partition_point(|sum| *sum < needed)
     }
 
     /// The flank from sample `top` down to its neighbour, or the end of the record; none if it does not fall, or is too

@@ -110,6 +110,9 @@ pub trait Element: Copy + Debug {
         f: &impl Fn(S, A) -> T,
     ) -> Result<Self::Law<T>, Unlike>;
 
+    /// Whether a commit marks the elements whose memory it may have changed; otherwise it may have changed any.
+    const MARKS: bool = false;
+
     /// Calls f with each pair of corresponding numbers of two memories, in a fixed order.
     fn each<S, A>(one: &mut Self::Past<S>, other: &mut Self::Past<A>, f: &mut impl FnMut(&mut S, &mut A));
 
@@ -212,6 +215,9 @@ pub trait Hints<S: Scalar>: Clone + Debug {
 
     /// Copies `other`, of the same elements, in these lanes.
     fn blend(&mut self, other: &Self, lanes: S::Mask);
+
+    /// Copies `other` without what cannot act within the step from its commit, which is this share of the longest.
+    fn take_over_for(&mut self, other: &Self, share: S);
 }
 
 /// No hints.
@@ -222,6 +228,8 @@ impl<S: Scalar> Hints<S> for () {
     fn look_again(&mut self, _lanes: S::Mask) {}
     #[inline(always)]
     fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
+    #[inline(always)]
+    fn take_over_for(&mut self, _other: &Self, _share: S) {}
 }
 
 /// Energy stored by the elements of a kind, or dissipated according to their memory.

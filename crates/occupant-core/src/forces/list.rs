@@ -9,6 +9,7 @@ use super::element::{Element, Hints, Instant, Load, Misfit, StoredEnergy, Unlike
 use super::joint::JointMoments;
 use super::joint::limit::JointLimits;
 use super::joint::muscle::Muscles;
+use super::marks::Marks;
 use super::own::OwnForces;
 use super::pace::Pace;
 use super::plate::Plates;
@@ -373,6 +374,27 @@ macro_rules! kinds {
                     }
                 )+
             }
+
+            /// The same without the elements that have no mark, of kinds that mark.
+            #[cfg(any(target_arch = "x86_64", test))]
+            pub(crate) fn each_marked<A>(
+                &mut self,
+                other: &mut Memory<A>,
+                marks: &Marks,
+                f: &mut impl FnMut(&mut S, &mut A),
+            ) {
+                $(
+                    if $Kind::MARKS {
+                        for i in marks.iter() {
+                            $Kind::each(&mut self.$kind[i], &mut other.$kind[i], f);
+                        }
+                    } else {
+                        for (one, other) in self.$kind.iter_mut().zip(&mut other.$kind) {
+                            $Kind::each(one, other, f);
+                        }
+                    }
+                )+
+            }
         }
 
         impl<S: Copy> Memory<S> {
@@ -383,6 +405,20 @@ macro_rules! kinds {
 
             pub(crate) fn take_over(&mut self, other: &Self) {
                 $(self.$kind.copy_from_slice(&other.$kind);)+
+            }
+
+            /// The same, where both are equal in the elements that have no mark, of kinds that mark.
+            #[inline(always)]
+            pub(crate) fn take_over_marked(&mut self, other: &Self, marks: &Marks) {
+                $(
+                    if $Kind::MARKS {
+                        for i in marks.iter() {
+                            self.$kind[i] = other.$kind[i];
+                        }
+                    } else {
+                        self.$kind.copy_from_slice(&other.$kind);
+                    }
+                )+
             }
         }
 
@@ -452,6 +488,11 @@ macro_rules! kinds {
             #[inline(always)]
             fn blend(&mut self, other: &Self, lanes: S::Mask) {
                 $(Hints::<S>::blend(&mut self.$kind, &other.$kind, lanes);)+
+            }
+
+            #[inline(always)]
+            fn take_over_for(&mut self, other: &Self, share: S) {
+                $(Hints::<S>::take_over_for(&mut self.$kind, &other.$kind, share);)+
             }
 
             #[inline(always)]
@@ -533,6 +574,18 @@ impl<S: Scalar> History<S> {
         self.hints.take_over(&other.hints);
     }
 
+    /// Copies `other` for a step of the length `h`, s, where the memories are equal in the elements that have no mark.
+    #[inline(always)]
+    pub(crate) fn take_over_for(&mut self, other: &History<S>, marks: &Marks, forces: &Forces<S>, h: S) {
+        self.memory.take_over_marked(&other.memory, marks);
+        self.hints.take_over_for(&other.hints, h / forces.contacts.longest_step());
+    }
+
+    /// Elements whose memory the latest commit may have changed, of the kind that marks them.
+    pub(crate) fn changed(&self) -> &Marks {
+        &self.hints.contacts.changed
+    }
+
     /// Length of the step that begins at the latest commit, given the planned length `h`, s.
     #[inline(always)]
     pub(crate) fn step(&self, h: S) -> S {
@@ -573,11 +626,15 @@ impl<S: Scalar> History<S> {
 
 #[cfg(any(target_arch = "x86_64", test))]
 impl History<f64> {
-    /// Stores `memory`, of a later position. Pairs far from contact stay skipped in groups in which no contact has begun or
-    /// ended meanwhile.
-    pub(crate) fn remember(&mut self, memory: &Memory<f64>) {
-        self.look_again_where(|pair| memory.contacts[pair].phase);
-        self.memory.take_over(memory);
+    /// Stores `memory`, of a later position; pairs that have no mark are equal. Pairs far from contact stay skipped in groups
+    /// in which no contact has begun or ended meanwhile.
+    pub(crate) fn remember(&mut self, memory: &Memory<f64>, marks: &Marks) {
+        for pair in marks.iter() {
+            if self.memory.contacts[pair].phase != memory.contacts[pair].phase {
+                self.hints.contacts.look_again_at(pair);
+            }
+        }
+        self.memory.take_over_marked(memory, marks);
     }
 
     /// Makes the next commit visit the groups of pairs whose phase is another at a later position.

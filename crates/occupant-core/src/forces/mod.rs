@@ -19,6 +19,7 @@ mod element;
 pub mod function;
 pub mod joint;
 mod list;
+pub(crate) mod marks;
 pub mod own;
 mod pace;
 pub mod plate;

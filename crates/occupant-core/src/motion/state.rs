@@ -175,6 +175,12 @@ impl<S: Copy> State<S> {
         self.shape
     }
 
+    /// Copies a state of the same shape: only the numbers in use, for a state of any tree is large.
+    #[inline(always)]
+    pub(crate) fn take_over(&mut self, other: &Self) {
+        self.numbers_mut().copy_from_slice(other.numbers());
+    }
+
     /// All numbers in order; see [`Shape`].
     #[inline(always)]
     pub fn numbers(&self) -> &[S] {

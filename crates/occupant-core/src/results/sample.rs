@@ -290,7 +290,7 @@ impl<'a> Sample<'a> {
     }
 
     /// Contacts by sphere; a contact of two spheres of the body is listed with both.
-    fn touches(&self) -> impl Iterator<Item = Touch<f64>> + use<'a> {
+    pub(crate) fn touches(&self) -> impl Iterator<Item = Touch<f64>> + use<'a> {
         let contacts = &self.model.system().forces.contacts;
         self.actions.contacts.iter().flat_map(move |touch| contacts.sides(touch))
     }

@@ -45,16 +45,22 @@ pub(super) struct Crossing<'a> {
 }
 
 impl Crossing<'_> {
-    /// End of the step just behind its first relevant kink, s.
+    /// End of the step just behind its first relevant kink, s. All evaluations see pairs in the same order.
     pub(super) fn end_behind_corner(&self) -> Option<f64> {
-        let begun = self.at_end.iter().filter_map(|end| {
-            let start = partner(self.at_start, end);
-            start.map_or_else(|| self.beginning(end), |start| self.turn(start, end))
-        });
-        let started = self.at_start.iter();
-        let ended =
-            started.filter(|start| partner(self.at_end, start).is_none()).filter_map(|start| self.ending(start));
-        let first = begun.chain(ended).fold(f64::INFINITY, f64::min);
+        debug_assert!(self.at_end.is_sorted_by_key(|touching| touching.meeting.pair));
+        let (mut first, mut started, mut ended) = (f64::INFINITY, self.at_start, self.at_end);
+        loop {
+            let [before, after] = [started, ended].map(|list| list.first().map_or(usize::MAX, |of| of.meeting.pair));
+            let kink = match (started, ended) {
+                ([start, ..], [end, ..]) if before == after => self.turn(start, end),
+                ([start, ..], _) if before < after => self.ending(start),
+                (_, [end, ..]) => self.beginning(end),
+                (_, []) => break,
+            };
+            first = kink.map_or(first, |share| first.min(share));
+            started = &started[usize::from(before <= after)..];
+            ended = &ended[usize::from(after <= before)..];
+        }
         let end_s = self.step.start_s + (first + BEHIND) * self.step.length_s();
         first.is_finite().then_some(end_s)
     }
@@ -109,11 +115,4 @@ impl Crossing<'_> {
         let inside = share > MARGIN && share < 1.0 - MARGIN;
         (inside && error_m_s > LEAST_SHARE * tolerance).then_some(share)
     }
-}
-
-/// The same pair in `list`, which is in the order of the pairs in all evaluations.
-fn partner<'a>(list: &'a [Touching], of: &Touching) -> Option<&'a Touching> {
-    debug_assert!(list.is_sorted_by_key(|touching| touching.meeting.pair));
-    let at = list.binary_search_by_key(&of.meeting.pair, |touching| touching.meeting.pair).ok()?;
-    Some(&list[at])
 }

@@ -124,6 +124,7 @@ impl Front {
         let mut met = Follow(Met::anew(&mut self.met, &mut self.felt));
         let (history, rate) = (&mut ahead.after, &mut *ahead.rates[1]);
         system.rate_alone(&mut self.scratch, situation, history, &mut Some(&mut met), rate);
+        ahead.note_commit();
         system.read(&self.scratch, &self.frames, &mut |of, reading| self.felt.readings[of] = *reading);
     }
 
@@ -137,14 +138,14 @@ impl Front {
     ) -> Errors<f64> {
         let (system, h) = (model.system(), step.length_s());
         let [_, middle_s, _] = step.times_s();
-        let Ahead { to, rates, after, trial: history, room, .. } = &mut self.ahead;
-        history.take_over(after);
+        self.ahead.begin_trial(&system.forces, h);
+        let Ahead { to, rates, trial: history, room, .. } = &mut self.ahead;
         let Felt { numbers, readings } = &mut self.felt_in_trial;
         self.met_in_trial.clear();
         numbers.clear();
         let mut met = Follow(Met { met: &mut self.met_in_trial, numbers });
         let (scratch, frames) = (&mut self.scratch, &mut self.frames);
-        room.attempt(to, &rates[1], h, tolerance, |stage, state, rate| {
+        let errors = room.attempt(to, &rates[1], h, tolerance, |stage, state, rate| {
             let accepted = stage == Stage::End;
             model.move_frames(frames, step.at_s(stage), middle_s, cursor);
             let situation = Situation { state, frames, accepted };
@@ -152,7 +153,9 @@ impl Front {
             if accepted {
                 system.read(scratch, frames, &mut |of, reading| readings[of] = *reading);
             }
-        })
+        });
+        self.ahead.end_trial();
+        errors
     }
 
     /// Accepts the tried `step` as the latest; `at_break`: the velocity of the vehicle may jump at its end.

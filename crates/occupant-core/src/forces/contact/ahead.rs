@@ -93,7 +93,7 @@ impl<S: Scalar> Way<S> {
 impl<S: Scalar> ContactSystem<S> {
     /// The longest step that the integrator can take, s.
     #[inline(always)]
-    pub(super) fn longest_step(&self) -> S {
+    pub(in crate::forces) fn longest_step(&self) -> S {
         self.reach_of_a_step / S::of(FASTEST_M_S)
     }
 

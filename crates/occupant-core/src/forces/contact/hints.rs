@@ -3,13 +3,14 @@
 //! Nearly all pairs of a sphere and a face are far apart, or have passed each other for good. A commit checks all pairs
 //! of a group. It stores those that touch or may soon come near or open, and the distance of the nearest of the others.
 //! Until the sphere has moved that far, nothing can have happened to the others, and later commits skip them. Among the
-//! watched pairs those that can exert a force before the next commit are near; evaluations within a step use no others.
-//! Results do not depend on it.
+//! watched pairs those that can exert a force before the next commit are near: first within the longest step, then within
+//! the one that is taken. Evaluations within a step use no others. Results do not depend on it.
 
 use std::ops::Range;
 
 use crate::forces::contact::{ContactSystem, Group, OPEN, PASSED, PairHistory};
 use crate::forces::element::Hints;
+use crate::forces::marks::Marks;
 use crate::forces::pace::Pace;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -30,8 +31,12 @@ pub struct ContactHints<S: Scalar> {
     /// By group of pairs.
     looks: Vec<Look<S>>,
     pub(super) own: OwnHints<S>,
+    /// How far a sphere may come in the longest step from the latest commit, m.
+    pub(super) reach: S,
     /// How long the step may be that begins at the latest commit.
     pub(in crate::forces) pace: Pace<S>,
+    /// What the latest commit looked at, and so may have changed.
+    pub(in crate::forces) changed: Marks,
     spare: Spare<S>,
 }
 
@@ -56,16 +61,16 @@ pub(super) struct OwnHints<S: Scalar> {
 
 impl<S: Scalar> OwnHints<S> {
     fn new(pairs: usize, spheres: usize) -> Self {
-        let near: Vec<_> = (0..pairs as u32).map(|pair| Near { pair, lanes: S::truth(true) }).collect();
+        let near: Vec<_> = (0..pairs as u32).map(Near::always).collect();
         let room = vec![V3::zero(); if pairs > 0 { spheres } else { 0 }];
         OwnHints { near, count: pairs, centres: room.clone(), velocities: room }
     }
 
-    /// Adds pair `i` in these lanes.
+    /// Adds pair `i`, committed at deformation `depth`, in these lanes.
     #[inline(always)]
-    pub(super) fn note(&mut self, i: usize, lanes: S::Mask) {
+    pub(super) fn note(&mut self, i: usize, depth: S, lanes: S::Mask) {
         if S::any(lanes) {
-            self.near[self.count] = Near { pair: i as u32, lanes };
+            self.near[self.count] = Near { pair: i as u32, depth, lanes };
             self.count += 1;
         }
     }
@@ -75,8 +80,32 @@ impl<S: Scalar> OwnHints<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near<S: Scalar> {
     pub pair: u32,
+    /// Deformation at the commit, m.
+    depth: S,
     /// Where it can.
     pub lanes: S::Mask,
+}
+
+impl<S: Scalar> Near<S> {
+    /// Near however short the step.
+    #[inline(always)]
+    fn always(pair: u32) -> Self {
+        Near { pair, depth: S::of(f64::INFINITY), lanes: S::truth(true) }
+    }
+
+    /// Copies to `list` those of `all` that a sphere meets on the way `reach`; how many they are.
+    #[inline(always)]
+    fn within(list: &mut [Near<S>], all: &[Near<S>], reach: S) -> usize {
+        let mut count = 0;
+        for near in all {
+            let lanes = near.lanes & (-reach).lt(near.depth);
+            if S::any(lanes) {
+                list[count] = Near { lanes, ..*near };
+                count += 1;
+            }
+        }
+        count
+    }
 }
 
 /// The last look at all pairs of a group.
@@ -97,7 +126,6 @@ pub(super) struct Look<S> {
 impl<S: Scalar> ContactHints<S> {
     /// Every pair counts as near until the first commit.
     pub(super) fn new(contacts: &ContactSystem<S>) -> Self {
-        let lanes = S::truth(true);
         let all = 0..(contacts.pairs.len() + contacts.solids.pairs.len()) as u32;
         let looks = contacts.groups.iter().chain(&contacts.solids.groups).map(|group| Look {
             first: group.pairs.start,
@@ -108,10 +136,12 @@ impl<S: Scalar> ContactHints<S> {
         });
         ContactHints {
             watched: all.clone().collect(),
-            near: all.map(|pair| Near { pair, lanes }).collect(),
+            near: all.map(Near::always).collect(),
             looks: looks.collect(),
             own: OwnHints::new(contacts.own.pairs.len(), contacts.own.spheres),
+            reach: S::zero(),
             pace: Pace::any(),
+            changed: Marks::none(contacts.first_pane() + contacts.panes.len()),
             spare: Spare { watched: Vec::new(), near: Vec::new() },
         }
     }
@@ -150,7 +180,7 @@ impl<S: Scalar> ContactHints<S> {
     /// Makes the watched pairs of `group`, number `g`, those that an evaluation looks at; returns how many there are.
     pub(super) fn look_at_watched(&mut self, g: usize, group: &Group) -> usize {
         for place in self.watched_of(g, group) {
-            self.near[place] = Near { pair: self.watched[place], lanes: S::truth(true) };
+            self.near[place] = Near::always(self.watched[place]);
         }
         self.looks[g].near = self.looks[g].watched;
         self.looks[g].near
@@ -167,11 +197,14 @@ impl<S: Scalar> ContactHints<S> {
 
 impl<S: Scalar> Hints<S> for ContactHints<S> {
     fn take_over(&mut self, other: &Self) {
-        self.watched.copy_from_slice(&other.watched);
-        self.near.copy_from_slice(&other.near);
         self.looks.copy_from_slice(&other.looks);
-        self.own.near.copy_from_slice(&other.own.near);
+        for Look { first, watched, near, .. } in &self.looks {
+            self.watched[*first..][..*watched].copy_from_slice(&other.watched[*first..][..*watched]);
+            self.near[*first..][..*near].copy_from_slice(&other.near[*first..][..*near]);
+        }
         self.own.count = other.own.count;
+        self.own.near[..other.own.count].copy_from_slice(&other.own.near[..other.own.count]);
+        self.reach = other.reach;
         self.pace = other.pace;
     }
 
@@ -184,7 +217,7 @@ impl<S: Scalar> Hints<S> for ContactHints<S> {
 
     #[inline(always)]
     fn blend(&mut self, other: &Self, lanes: S::Mask) {
-        let ContactHints { watched, near, looks, own, pace, spare } = self;
+        let ContactHints { watched, near, looks, own, reach, pace, spare, changed: _ } = self;
         for (look, others) in looks.iter_mut().zip(&other.looks) {
             let first = look.first;
             look.watched = spare.join(&mut watched[first..], look.watched, &other.watched[first..][..others.watched]);
@@ -193,7 +226,25 @@ impl<S: Scalar> Hints<S> for ContactHints<S> {
             look.reach_squared = S::select(lanes, others.reach_squared, look.reach_squared);
         }
         own.count = spare.blend(&mut own.near, own.count, &other.own.near[..other.own.count], lanes);
+        *reach = S::select(lanes, other.reach, *reach);
         *pace = Pace::select(lanes, other.pace, *pace);
+    }
+
+    #[inline(always)]
+    fn take_over_for(&mut self, other: &Self, share: S) {
+        let reach = other.reach * share;
+        for (own, look) in self.looks.iter_mut().zip(&other.looks) {
+            *own = *look;
+            // mostly a few, for which a loop is quicker than a call
+            for place in look.first..look.first + look.watched {
+                self.watched[place] = other.watched[place];
+            }
+            let near = &other.near[look.first..look.first + look.near];
+            own.near = Near::within(&mut self.near[look.first..], near, reach);
+        }
+        self.own.count = Near::within(&mut self.own.near, &other.own.near[..other.own.count], reach);
+        self.reach = other.reach;
+        self.pace = other.pace;
     }
 }
 
@@ -223,17 +274,18 @@ impl<S: Scalar> Spare<S> {
         while i < count || j < other.len() {
             let own = if i < count { list[i].pair } else { u32::MAX };
             let others = if j < other.len() { other[j].pair } else { u32::MAX };
-            let (pair, mut mask) = (own.min(others), S::truth(false));
+            let (pair, mut mask, mut depth) = (own.min(others), S::truth(false), S::zero());
             if own == pair {
-                mask = mask | (list[i].lanes & !lanes);
+                (mask, depth) = (list[i].lanes & !lanes, list[i].depth);
                 i += 1;
             }
             if others == pair {
                 mask = mask | (other[j].lanes & lanes);
+                depth = S::select(lanes, other[j].depth, depth);
                 j += 1;
             }
             if S::any(mask) {
-                all.push(Near { pair, lanes: mask });
+                all.push(Near { pair, depth, lanes: mask });
             }
         }
         list[..all.len()].copy_from_slice(all);
@@ -267,7 +319,7 @@ impl Nearing {
         let lanes = (-reach).lt(depth) & pair.phase.lt(S::of(PASSED));
         if S::any(lanes) {
             let pair = i as u32;
-            hints.near[self.first + self.count] = Near { pair, lanes };
+            hints.near[self.first + self.count] = Near { pair, depth, lanes };
             self.count += 1;
         }
     }

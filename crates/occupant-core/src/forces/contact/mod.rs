@@ -32,6 +32,7 @@ use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum, passes};
 use crate::forces::list::STORES;
+use crate::forces::marks::Marks;
 use crate::forces::pace::Pace;
 use crate::forces::sphere::Site;
 use crate::motion::frame::MOST_FRAMES;
@@ -159,6 +160,8 @@ impl Element for Contacts {
         one.zip(other, f)
     }
 
+    const MARKS: bool = true;
+
     fn each<S, A>(one: &mut PairHistory<S>, other: &mut PairHistory<A>, f: &mut impl FnMut(&mut S, &mut A)) {
         f(&mut one.phase, &mut other.phase);
         f(&mut one.greatest, &mut other.greatest);
@@ -232,7 +235,9 @@ impl Element for Contacts {
         let mut reach = law.reach_of_a_step;
         if at.accepted {
             hints.pace = Pace::any();
+            hints.changed.clear();
             reach = law.reach(at);
+            hints.reach = reach;
             if !law.panes.is_empty() {
                 law.strain_panes(at, past, hints);
             }
@@ -250,6 +255,9 @@ impl Element for Contacts {
             if let Some(aside) = aside {
                 aside.react(at.k, load);
             }
+        }
+        if at.accepted {
+            law.mark_always(&mut hints.changed);
         }
         law.own.apply(at, past, hints, [reach, law.longest_step()], load, show);
     }
@@ -302,6 +310,9 @@ fn meet_all<S: Scalar, const SOLID: bool>(
             (hints.near[place].pair as usize, hints.near[place].lanes)
         };
         let depth = sphere.look_at::<SOLID>(i, lanes, past, power, show);
+        if at.accepted {
+            law.mark::<SOLID>(i, &mut hints.changed);
+        }
         if looks {
             look.at(i, depth, reach, &past[i], hints);
         }
@@ -320,6 +331,25 @@ fn meet_all<S: Scalar, const SOLID: bool>(
 }
 
 impl<S: Scalar> ContactSystem<S> {
+    /// Marks what is remembered of pair `i`: of solids with the faces of each.
+    #[inline(always)]
+    fn mark<const SOLID: bool>(&self, i: usize, changed: &mut Marks) {
+        changed.set(i);
+        if SOLID {
+            for member in &self.solids.pairs[i - self.pairs.len()].members {
+                changed.set(member.past);
+            }
+        }
+    }
+
+    /// Marks what every commit looks at: pairs of spheres of the body, and panes.
+    #[inline(always)]
+    fn mark_always(&self, changed: &mut Marks) {
+        for i in self.own.first..self.first_pane() + self.panes.len() {
+            changed.set(i);
+        }
+    }
+
     /// Puts aside what the sphere of a group has where a segment carries the faces, and so gets the opposite.
     #[inline(always)]
     fn aside(&self, group: &Group, at: &Instant<'_, S>, load: &mut Load<S>) -> Option<Aside<S>> {

@@ -78,6 +78,8 @@ pub(super) struct Signs {
     is_begun: bool,
     /// Time of the last check of spheres and limbs, s.
     seen_s: f64,
+    /// Centres of all spheres in the frames of contacts, found when they are needed.
+    centres: Vec<Centres>,
     /// Surface on which the body was seated.
     cushion: Option<usize>,
 }
@@ -99,9 +101,13 @@ impl Sunk {
 
     /// The same for the first surface, if it is more than a graze.
     fn see_first(&mut self, length_m: f64, surface: usize, time_s: f64) {
-        if self.most.value < GRAZE_M || surface == self.surface {
+        if self.may_see_first(surface) {
             self.see(length_m, surface, time_s);
         }
+    }
+
+    fn may_see_first(&self, surface: usize) -> bool {
+        self.most.value < GRAZE_M || surface == self.surface
     }
 }
 
@@ -138,6 +144,7 @@ impl Signs {
             begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
             is_begun: false,
             seen_s: 0.0,
+            centres: Centres::all(model),
             cushion: match &model.setup().posture {
                 InitialPosture::Seated(seating) => Some(seating.cushion),
                 _ => None,
@@ -150,11 +157,13 @@ impl Signs {
         if sample.step_peaks.are_unknown() {
             self.see_joints(sample);
         }
-        for contact in sample.contacts() {
-            if contact.surface < model.faces().len() {
-                self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s);
+        let contacts = &model.system().forces.contacts;
+        for touch in sample.touches() {
+            let surface = contacts.surface(touch.pair, touch.part as usize);
+            if surface < model.faces().len() {
+                self.deep[touch.sphere].see(touch.depth, surface, time_s);
             } else {
-                self.see_solid(sample, &contact);
+                self.see_solid(sample, &touch, surface);
             }
         }
         for touch in &sample.actions.contacts {
@@ -204,13 +213,14 @@ impl Signs {
     }
 
     /// Checks a sphere in a solid.
-    fn see_solid(&mut self, sample: &Sample<'_>, contact: &Contact) {
-        let thickness_m = contact.thickness_m;
-        let radius_m = sample.model.body().spheres[contact.sphere].radius_m;
+    fn see_solid(&mut self, sample: &Sample<'_>, touch: &Touch<f64>, surface: usize) {
+        let contacts = &sample.model.system().forces.contacts;
+        let thickness_m = contacts.thickness_m(touch, &sample.history.memory.contacts);
+        let radius_m = sample.model.body().spheres[touch.sphere].radius_m;
         let most_m = if thickness_m > radius_m { BOTTOM * thickness_m } else { radius_m + thickness_m };
-        let (bottomed, of_m) = &mut self.bottomed[contact.sphere];
-        if contact.depth_m > most_m && bottomed.most.see(contact.depth_m, sample.time_s) {
-            (bottomed.surface, *of_m) = (contact.surface, thickness_m);
+        let (bottomed, of_m) = &mut self.bottomed[touch.sphere];
+        if touch.depth > most_m && bottomed.most.see(touch.depth, sample.time_s) {
+            (bottomed.surface, *of_m) = (surface, thickness_m);
         }
     }
 
@@ -285,28 +295,30 @@ impl Signs {
         let contacts = &sample.model.system().forces.contacts;
         let sphere = &sample.model.body().spheres[group.sphere];
         let feels = || sample.actions.contacts.iter().any(|touch| touch.sphere == group.sphere);
-        let (segment, mut place) = (sphere.segment.index(), None);
+        let (segment, pairs) = (sphere.segment.index(), group.pairs.clone());
         let limb = self.limbs[segment].map(|length_m| limb(sample, group.frame, segment, length_m));
-        for i in group.pairs.clone() {
-            let has_passed = sample.history.memory.contacts[i].phase == PASSED;
-            if has_passed && !self.begun[i][0] {
+        let all = contacts.planes[pairs.clone()].iter().zip(&sample.history.memory.contacts[pairs.clone()]);
+        for ((i, begun), (plane, past)) in pairs.clone().zip(&mut self.begun[pairs]).zip(all) {
+            let has_passed = past.phase == PASSED;
+            if has_passed && !begun[0] {
                 if !self.is_begun {
-                    self.begun[i][0] = true;
+                    begun[0] = true;
                 } else if !feels() {
-                    let centre = *place.get_or_insert_with(|| centre(sample, group.frame, group.sphere));
+                    let centre = Centres::of(&mut self.centres, sample, group.frame)[group.sphere];
                     let (overlap_m, surface) = overlap(contacts, i, centre, sphere.radius_m);
                     self.passed[group.sphere].see_first(overlap_m, surface, sample.time_s);
                 }
             }
-            self.begun[i][0] &= has_passed;
-            let Some(ends) = limb.filter(|_| !self.begun[i][1]) else { continue };
-            let Some(place) = crossing(&contacts.planes[i], sphere.radius_m, ends) else { continue };
+            begun[0] &= has_passed;
+            let Some(ends) = limb.filter(|_| !begun[1]) else { continue };
+            let Some(place) = crossing(plane, sphere.radius_m, ends) else { continue };
             let pair = &contacts.pairs[i];
             for part in pair.parts.iter().filter(|part| pair.beside(part, place) == 0.0) {
                 if !self.is_begun {
-                    self.begun[i][1] = true;
-                } else {
-                    let clear_m = clear_m(sample, group.frame, place);
+                    begun[1] = true;
+                } else if self.cuts[segment].may_see_first(part.surface) {
+                    let centres = Centres::of(&mut self.centres, sample, group.frame);
+                    let clear_m = clear_m(sample.model.body(), centres, place);
                     self.cuts[segment].see_first(clear_m, part.surface, sample.time_s);
                 }
             }
@@ -467,8 +479,39 @@ fn into_frame(sample: &Sample<'_>, frame: usize, point: V3<f64>) -> V3<f64> {
     frame.axes.into_frame(point - frame.origin)
 }
 
-fn centre(sample: &Sample<'_>, frame: usize, sphere: usize) -> V3<f64> {
-    into_frame(sample, frame, sample.model.system().sphere(&sample.evaluation.kinematics, sphere).1)
+/// Centres of all spheres at one instant in the axes of a frame, m.
+#[derive(Clone, Debug)]
+struct Centres {
+    frame: usize,
+    time_s: f64,
+    centres: Vec<V3<f64>>,
+}
+
+impl Centres {
+    /// For all frames with faces, of no instant yet.
+    fn all(model: &Model) -> Vec<Centres> {
+        let mut all = Vec::<Centres>::new();
+        for group in &model.system().forces.contacts.groups {
+            if all.iter().all(|known| known.frame != group.frame) {
+                let centres = vec![V3::zero(); model.body().spheres.len()];
+                all.push(Centres { frame: group.frame, time_s: f64::NAN, centres });
+            }
+        }
+        all
+    }
+
+    /// Those of a frame in `all`, by sphere.
+    fn of<'a>(all: &'a mut [Centres], sample: &Sample<'_>, frame: usize) -> &'a [V3<f64>] {
+        let Some(own) = all.iter_mut().find(|own| own.frame == frame) else { return &[] };
+        if own.time_s != sample.time_s {
+            own.time_s = sample.time_s;
+            let (system, k) = (sample.model.system(), &sample.evaluation.kinematics);
+            for (sphere, centre) in own.centres.iter_mut().enumerate() {
+                *centre = into_frame(sample, frame, system.sphere(k, sphere).1);
+            }
+        }
+        &own.centres
+    }
 }
 
 /// Overlap of a sphere about `centre` with the nearest part of pair `i`, m, and the part's surface.
@@ -487,8 +530,8 @@ fn crossing(plane: &Plane<f64>, radius_m: f64, [from, to]: [V3<f64>; 2]) -> Opti
 }
 
 /// Distance of a point from the nearest sphere of the body, m.
-fn clear_m(sample: &Sample<'_>, frame: usize, place: V3<f64>) -> f64 {
-    let spheres = sample.model.body().spheres.iter().enumerate();
-    let away = spheres.map(|(i, sphere)| (centre(sample, frame, i) - place).norm_squared().sqrt() - sphere.radius_m);
+fn clear_m(body: &Body, centres: &[V3<f64>], place: V3<f64>) -> f64 {
+    let spheres = body.spheres.iter().zip(centres);
+    let away = spheres.map(|(sphere, centre)| (*centre - place).norm_squared().sqrt() - sphere.radius_m);
     away.fold(f64::INFINITY, f64::min)
 }

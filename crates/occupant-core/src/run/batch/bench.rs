@@ -53,7 +53,7 @@ impl<L: Lanes> Bench<L> {
     /// Keeps the start of the next step.
     pub fn keep_start(&mut self) {
         if let Some(rear) = &mut self.rear {
-            rear.ahead.state = self.state;
+            rear.ahead.state.take_over(&self.state);
             rear.ahead.memory.take_over(&self.history.memory);
         }
     }

@@ -93,7 +93,8 @@ impl<L: Lanes> Bench<L> {
     #[inline(always)]
     fn go(&mut self, h: L, witness: &mut Witness<'_>, rate: impl Rate<L>) -> L {
         let Bench { state, stages, history, around, .. } = self;
-        *state = *stages.go(state, h, |stage, state, k| rate(around, stage.into(), state, history, witness, k));
+        let end = stages.go(state, h, |stage, state, k| rate(around, stage.into(), state, history, witness, k));
+        state.take_over(end);
         L::select(self.state.finite(), L::one(), L::zero())
     }
 
@@ -103,10 +104,11 @@ impl<L: Lanes> Bench<L> {
         let Bench { around, ahead: Some(ahead), .. } = self else { return h };
         let mask = looks.gt(L::zero());
         if L::any(mask) {
+            ahead.begin_trial(&around.system.forces, h);
             let Ahead { to, after, trial, room, .. } = &mut **ahead;
-            trial.take_over(after);
             rate(around, Call { frames: 0, accepted: true }, to, trial, witness, &mut room.rate);
             after.blend_hints(trial, mask);
+            ahead.end_trial();
         }
         ahead.after.step(h)
     }
@@ -117,14 +119,16 @@ impl<L: Lanes> Bench<L> {
         let Bench { around, ahead: Some(ahead), tolerance, .. } = self else {
             return (Errors { whole: h, within: h }, h);
         };
+        ahead.begin_trial(&around.system.forces, h);
         let Ahead { to, rates, after, trial, room, .. } = &mut **ahead;
-        trial.take_over(after);
         let mut frames = 0..;
         let errors = room.attempt(to, &rates[1], h, tolerance, |stage, state, k| {
             let call = Call { frames: frames.next().unwrap_or(0), accepted: stage == Trial::End };
             rate(around, call, state, trial, witness, k);
         });
-        (errors, L::select(after.memory.has_switched(&trial.memory), L::one(), L::zero()))
+        let switched = after.memory.has_switched(&trial.memory);
+        ahead.end_trial();
+        (errors, L::select(switched, L::one(), L::zero()))
     }
 
     /// [`Machine::keep_hints`].

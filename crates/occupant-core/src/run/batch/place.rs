@@ -1,6 +1,7 @@
 //! A run in its place beside others.
 
 use crate::forces::contact::Touch;
+use crate::forces::marks::Marks;
 use crate::forces::shown::Tracker;
 use crate::kernel::instruments::Reading;
 use crate::model::Model;
@@ -37,6 +38,10 @@ pub(super) struct Place {
     pub looks: bool,
     /// Whether an element has switched by the end of its latest trial.
     pub jumps: bool,
+    /// Where the memory at the start of the latest step may differ from the one last fetched, and that one from the one
+    /// of the latest output.
+    pub behind: Marks,
+    pub unseen: Marks,
 }
 
 /// Continuation of a run after a step or an output.
@@ -60,7 +65,23 @@ impl Place {
         let (whole, step) = (Step::default(), Step::default());
         let (frames, before) = (Frames::still(run.time_s), (stretch, [whole, step]));
         let (latest, looks, jumps) = (None, false, false);
-        Place { frames, model, stretch, run, step_s, whole, step, latest, before, control, looks, jumps }
+        let [behind, unseen] = [run.history.changed().blank(), run.history.changed().blank()];
+        Place {
+            frames,
+            model,
+            stretch,
+            run,
+            step_s,
+            whole,
+            step,
+            latest,
+            before,
+            control,
+            looks,
+            jumps,
+            behind,
+            unseen,
+        }
     }
 
     /// First output.

@@ -54,7 +54,7 @@ impl<L: Machine> Group<L> {
             place.jumps = switched.lane(i) > 0.0;
             verdicts[i] = Some(place.judge(i, ahead, errors));
         }
-        shift(bench, &verdicts);
+        shift(bench, &verdicts, places);
         for (i, verdict) in verdicts.into_iter().enumerate() {
             match verdict {
                 Some(Ok(true)) => self.reach_outputs(i, jobs)?,
@@ -150,11 +150,18 @@ impl<L: Machine> Group<L> {
 }
 
 /// Shifts the lanes with an accepted trial.
-fn shift<L: Machine>(bench: &mut Bench<L>, verdicts: &[Option<Result<bool, StepError>>; MOST_PLACES]) {
+fn shift<L: Machine>(
+    bench: &mut Bench<L>,
+    verdicts: &[Option<Result<bool, StepError>>; MOST_PLACES],
+    places: &mut [Option<Box<Place>>],
+) {
     let stays = |verdict: &Option<Result<bool, StepError>>| matches!(verdict, Some(Ok(false) | Err(_)));
     let Some(ahead) = bench.ahead.as_mut().filter(|_| verdicts.iter().any(|v| matches!(v, Some(Ok(true))))) else {
         return;
     };
+    for place in places.iter_mut().flatten() {
+        place.behind.add(ahead.moved());
+    }
     ahead.shift();
     if verdicts.iter().any(stays) {
         let mut kept = L::zero();
@@ -240,7 +247,10 @@ impl Place {
         ahead.to.lane(i, &mut alone.to);
         ahead.rates[0].lane(i, &mut alone.rates[0]);
         ahead.rates[1].lane(i, &mut alone.rates[1]);
-        ahead.before.memory.each(&mut alone.before.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+        let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
+        ahead.before.memory.each_marked(&mut alone.before.memory, &self.behind, fetch);
+        self.unseen.add(&self.behind);
+        self.behind.clear();
         alone.before.look_again();
     }
 
@@ -250,6 +260,7 @@ impl Place {
         let alone = &mut front.ahead.after;
         ahead.after.memory.each(&mut alone.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
         alone.begin_anew(&self.model.system().forces, ahead.after.pace().map(|lanes| lanes.lane(i)));
+        front.ahead.forget_marks();
     }
 
     /// Moves the run to a time within its latest step.
@@ -257,7 +268,9 @@ impl Place {
         let run = &mut self.run;
         if let Some(front) = &run.front {
             run.state = front.state_at(time_s);
-            run.history.remember(&front.ahead.before.memory);
+            self.unseen.add(run.history.changed());
+            run.history.remember(&front.ahead.before.memory, &self.unseen);
+            self.unseen.clear();
         }
         run.time_s = time_s;
     }

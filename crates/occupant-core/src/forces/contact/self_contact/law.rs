@@ -120,7 +120,7 @@ impl<S: Scalar> SelfPairs<S> {
             let live = depth.gt(S::zero()) & is_here;
             pair.press(self.first + i, depth, normal, live, past.greatest, at, load, show);
             let near = (-reach).lt(depth) & is_here;
-            hints.note(i, near);
+            hints.note(i, depth, near);
             if S::any(near) {
                 let velocity = hints.velocities[other] - hints.velocities[one];
                 pair.look_ahead(at.spheres, centres, velocity, longest, near, pace);
