@@ -83,6 +83,21 @@ impl Within {
         here.iter().zip(there).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
     }
 
+    /// The constraints that values break, or meet but for this distance in parts of the ranges.
+    pub fn met(&self, values: &[f64], near: f64) -> impl Iterator<Item = &Relation> {
+        let is_met = move |relation: &&Relation| {
+            let square: f64 = self.slopes(relation).map(|(_, slope)| slope * slope).sum();
+            let (sum, reach) = (relation.sum(values), near * square.sqrt());
+            sum > relation.most - reach || sum < relation.least + reach
+        };
+        self.relations.iter().filter(is_met)
+    }
+
+    /// Indices of the parameters of a constraint, with the change of its sum across all of their ranges.
+    fn slopes(&self, relation: &Relation) -> impl Iterator<Item = (usize, f64)> {
+        relation.terms.iter().map(|(i, factor)| (*i, factor * (self.bounds[*i].to - self.bounds[*i].from)))
+    }
+
     fn values(&self, parts: &[f64]) -> Vec<f64> {
         let value = |(bounds, part): (&Bounds, &f64)| Bounds { log: false, ..*bounds }.value(*part);
         self.bounds.iter().zip(parts).map(value).collect()
@@ -127,8 +142,7 @@ impl Within {
 
     /// The nearest point that keeps a constraint, whatever the bounds.
     fn onto(&self, relation: &Relation, parts: &[f64]) -> Vec<f64> {
-        let slope = |(i, factor): &(usize, f64)| (*i, factor * (self.bounds[*i].to - self.bounds[*i].from));
-        let slopes: Vec<(usize, f64)> = relation.terms.iter().map(slope).collect();
+        let slopes: Vec<(usize, f64)> = self.slopes(relation).collect();
         let square: f64 = slopes.iter().map(|(_, slope)| slope * slope).sum();
         let sum = relation.sum(&self.values(parts));
         let beyond = (sum - relation.most).max(0.0) + (sum - relation.least).min(0.0);
@@ -176,6 +190,9 @@ mod tests {
         near(&half, [0.8, 0.6], [0.6, 0.4]);
         near(&half, [1.0, 1.0], [0.5, 0.5]);
         assert!((half.apart(&[1.0, 1.0]) - 0.5_f64.sqrt()).abs() < 1e-9 && half.apart(&[0.1, 0.1]) == 0.0);
+        // the line is 0.0707 away
+        let met = |near| half.met(&[0.5, 0.4], near).count();
+        assert_eq!((met(0.07), met(0.071), half.met(&[0.9, 0.9], 0.0).count()), (0, 1, 1));
         let corner = [relation(&[(0, 1.0)], 0.7, f64::INFINITY), relation(&[(0, 1.0), (1, 1.0)], -1.0, 0.8)];
         near(&Within::new(&corner, &unit).unwrap(), [0.0, 1.0], [0.7, 0.1]);
         let strip = [relation(&[(0, 1.0), (1, -1.0)], 0.0, 0.0)];

@@ -182,3 +182,37 @@ fn the_other_objectives_find_the_hidden_numbers_too() {
         }
     }
 }
+
+/// A constraint cuts off what is hidden, 90 kN/m and 3.5 cm: the end on its side is the constraint's, and this is said.
+#[test]
+fn an_interval_that_a_constraint_ends_is_told_from_one_that_the_test_ends() {
+    let limit = |terms: &str, most: &str| {
+        let constraint = format!("[[constraints]]\nname = \"cut\"\nsum = {terms}\nmax = \"{most}\"\n\n[fit]");
+        STUDY.replace("[fit]", &constraint)
+    };
+    for (most, verdict) in [("80 kN/m", "at_constraint"), ("130 kN/m", "identified")] {
+        let folder = folder_with(&limit("{ lap = 1 }", most));
+        let at = folder.path();
+        measure(at, "test.csv", &HIDDEN, 0.02, 1);
+        let said = done(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out"]);
+        let found = found(at, "out");
+        let (lap, slack) = (parameter(&found, "lap"), parameter(&found, "slack"));
+        assert_eq!(lap["verdict"], verdict, "{said}");
+        let is_cut = verdict == "at_constraint";
+        assert_eq!(lap["open"], serde_json::json!([false, is_cut]), "{lap}");
+        assert_eq!(
+            said.contains("lap is at constraint cut: without it another value may fit better"),
+            is_cut,
+            "{said}"
+        );
+        // it holds for the other parameter nowhere
+        assert_eq!(slack["verdict"], "identified", "{said}");
+        if is_cut {
+            // measured: 80.0 kN/m; the interval ends there but for a thousandth of the range
+            let [value, end] = [number(&lap["value"]), number(&lap["interval"][1])];
+            assert!((value / 80e3 - 1.0).abs() < 2e-3 && (end / 80e3 - 1.0).abs() < 5e-3, "{lap}");
+        } else {
+            assert!(holds(lap, 90e3), "{lap}");
+        }
+    }
+}

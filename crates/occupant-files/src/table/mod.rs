@@ -11,9 +11,9 @@ use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
-use parquet::schema::types::Type;
+use parquet::schema::types::{ColumnPath, Type};
 use placed_text::plain;
 use serde::{Deserialize, Serialize};
 
@@ -25,6 +25,8 @@ pub use stored::StoredTable;
 /// Number of values buffered, but at least and at most this many rows.
 const CELLS: usize = 400_000;
 const ROWS: [usize; 2] = [1024, 16_384];
+/// After so many groups of rows they grow with their number: each keeps a description of each column in memory until the end.
+const GROUPS: usize = 64;
 
 /// Type of a column; only the `Maybe` types may lack values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,7 +144,10 @@ impl Form {
 /// A table being written to `W`.
 pub struct Table<W: Write + Send> {
     kinds: Vec<Kind>,
+    /// Cells of the rows that no group has yet, by column.
     waiting: Vec<Vec<Cell>>,
+    /// Groups of rows so far.
+    groups: usize,
     writer: Writer<W>,
 }
 
@@ -171,7 +176,8 @@ impl<W: Write + Send> Table<W> {
             Form::Parquet => Writer::Parquet(Box::new(begin(to, columns, about).map_err(reason)?)),
             Form::Xlsx | Form::Mat => Writer::Book(to, form, vec![Sheet::new("table", columns)]),
         };
-        Ok(Table { kinds: columns.iter().map(|(_, kind)| *kind).collect(), waiting: Vec::new(), writer })
+        let kinds: Vec<Kind> = columns.iter().map(|(_, kind)| *kind).collect();
+        Ok(Table { waiting: vec![Vec::new(); kinds.len()], kinds, groups: 0, writer })
     }
 
     /// Adds a row with a cell per column, of the column's type.
@@ -192,8 +198,8 @@ impl<W: Write + Send> Table<W> {
         match &mut self.writer {
             Writer::Csv(writer) => writer.write_record(cells.iter().map(Cell::shown))?,
             Writer::Parquet(_) => {
-                self.waiting.push(cells);
-                if self.waiting.len() >= (CELLS / self.kinds.len().max(1)).clamp(ROWS[0], ROWS[1]) {
+                self.waiting.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+                if self.waiting.first().map_or(0, Vec::len) >= rows_of_group(self.kinds.len(), self.groups) {
                     self.flush()?;
                 }
             }
@@ -232,12 +238,20 @@ impl<W: Write + Send> Table<W> {
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        let rows = std::mem::take(&mut self.waiting);
-        match &mut self.writer {
-            Writer::Parquet(writer) if !rows.is_empty() => write_group(writer, &self.kinds, &rows).map_err(reason),
-            _ => Ok(()),
+        let Writer::Parquet(writer) = &mut self.writer else { return Ok(()) };
+        if self.waiting.iter().all(Vec::is_empty) {
+            return Ok(());
         }
+        write_group(writer, &self.kinds, &self.waiting).map_err(reason)?;
+        self.groups += 1;
+        self.waiting.iter_mut().for_each(Vec::clear);
+        Ok(())
     }
+}
+
+/// Number of rows of a group after so many others.
+fn rows_of_group(columns: usize, before: usize) -> usize {
+    (CELLS / columns.max(1)).max(ROWS[0]).saturating_mul((before / GROUPS).max(1)).min(ROWS[1])
 }
 
 fn invalid(what: String) -> io::Error {
@@ -269,20 +283,27 @@ fn begin<W: Write + Send, N: AsRef<str>>(
         .set_compression(Compression::SNAPPY)
         .set_created_by(program())
         .set_key_value_metadata(Some(about.collect()))
-        .build();
-    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))
+        // nobody looks for a page, and an index of them stays in memory until the end
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_offset_index_disabled(true);
+    // numbers are seldom the same twice
+    let numbers = columns.iter().filter(|(_, kind)| !matches!(kind, Kind::Text | Kind::MaybeText));
+    let properties = numbers.fold(properties, |properties, (name, _)| {
+        properties.set_column_dictionary_enabled(ColumnPath::new(vec![name.as_ref().to_owned()]), false)
+    });
+    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties.build()))
 }
 
 fn write_group<W: Write + Send>(
     writer: &mut SerializedFileWriter<W>,
     kinds: &[Kind],
-    rows: &[Vec<Cell>],
+    columns: &[Vec<Cell>],
 ) -> Result<(), ParquetError> {
     let mut group = writer.next_row_group()?;
-    for (i, kind) in kinds.iter().enumerate() {
+    for (kind, cells) in kinds.iter().zip(columns) {
         let no_column = || ParquetError::General("a column too many".to_owned());
         let mut column = group.next_column()?.ok_or_else(no_column)?;
-        let cells = rows.iter().map(|row| row.get(i).unwrap_or(&Cell::Absent));
+        let cells = cells.iter();
         match kind {
             Kind::Count => put::<Int64Type>(&mut column, cells.map(|c| c.number().map(|x| x as i64)), Some(0)),
             Kind::Number => put::<DoubleType>(&mut column, cells.map(Cell::number), Some(f64::NAN)),
@@ -387,4 +408,22 @@ fn unwritten(path: &Path, error: &io::Error) -> Failure {
 
 fn broke_off(reason: &dyn std::fmt::Display) -> Failure {
     Failure::BrokeOff(format!("error: {reason}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_table_has_few_groups_and_a_short_one_small_groups() {
+        let (mut rows, mut groups) = (0, 0);
+        while rows < 10_000_000 {
+            let of = rows_of_group(205, groups);
+            assert!(if groups < GROUPS { of == 1951 } else { (1951..=ROWS[1]).contains(&of) }, "{of}");
+            rows += of;
+            groups += 1;
+        }
+        // measured: 905; of equal size there would be 5126
+        assert!(groups < 1000, "{groups}");
+    }
 }

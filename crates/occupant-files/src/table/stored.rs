@@ -21,7 +21,15 @@ impl StoredTable {
     /// # Errors
     /// An error of the operating system; a file that is no table.
     pub fn open(path: &Path) -> io::Result<Self> {
-        Ok(StoredTable(SerializedFileReader::new(File::open(path)?).map_err(reason)?))
+        StoredTable::of(File::open(path)?)
+    }
+
+    /// The same of an open file.
+    ///
+    /// # Errors
+    /// As [`StoredTable::open`].
+    pub fn of(file: File) -> io::Result<Self> {
+        Ok(StoredTable(SerializedFileReader::new(file).map_err(reason)?))
     }
 
     /// Names of the columns.

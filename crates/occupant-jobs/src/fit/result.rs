@@ -122,7 +122,7 @@ pub struct ParameterEstimate {
     pub value: f64,
     /// Interval in which the other parameters can compensate for it.
     pub interval: [f64; 2],
-    /// Whether each end of the interval is set by a bound, of this or another parameter, instead of the score.
+    /// Whether each end of the interval is set by a bound, of this or another parameter, or by a constraint, instead of the score.
     pub open: [bool; 2],
     /// Interval for this parameter alone.
     pub alone: [f64; 2],
@@ -283,6 +283,10 @@ fn remarks(
         let bound = match parameter.verdict {
             Verdict::AtLowerBound => "lower",
             Verdict::AtUpperBound => "upper",
+            Verdict::AtConstraint => {
+                all.push(format!("{} is {}: without it another value may fit better", parameter.name, parameter.words));
+                continue;
+            }
             _ => continue,
         };
         all.push(format!("{} is at its {bound} bound: a wider range may fit better", parameter.name));

@@ -30,6 +30,8 @@ pub enum Verdict {
     AtLowerBound,
     /// The score would fall further above the upper bound.
     AtUpperBound,
+    /// The score would fall further beyond a constraint of the study.
+    AtConstraint,
     /// The test does not determine it.
     NotIdentified,
 }
@@ -44,8 +46,13 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
     let (of, bounds) = (&fitting.parameters[i], fitting.bounds[i]);
     let u = answer.best.at[i];
     let ends = &answer.profiles.ends[i];
-    let open = [0, 1].map(|s| is_open(&ends[s], &answer.best.at));
-    let verdict = verdict(u, ends, open);
+    let near = &answer.best.at;
+    // where the constraint is the reason, not the test
+    let stopped = [0, 1].map(|s| ends[s].open || is_stopped(fitting, answer, &ends[s]));
+    let open = [0, 1].map(|s| stopped[s] || is_open(&ends[s], near) || meets_more(fitting, &ends[s].point.at, near));
+    let constraints: Vec<&str> =
+        names_met(fitting, near).filter(|(of, _)| of.contains(&i)).map(|(_, name)| name).collect();
+    let verdict = verdict(u, ends, (stopped, open), !constraints.is_empty());
     let compensated_by = partners(fitting, answer, i);
     let misfit = fitting.fit.misfit;
     let end = |end: &End| IntervalEnd { values: fitting.values(&end.point.at), score: misfit.of_cost(end.point.value) };
@@ -69,7 +76,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
         open,
         alone: alone(bounds, u, [down.length, up.length]),
         near_optimal: [bounds.value(least), bounds.value(most)],
-        words: words(verdict, &compensated_by),
+        words: words(verdict, &compensated_by, &constraints),
         verdict,
         compensated_by,
         ends: [end(&ends[0]), end(&ends[1])],
@@ -95,16 +102,36 @@ fn alone(bounds: Bounds, u: f64, [down, up]: [f64; 2]) -> [f64; 2] {
 fn is_open(end: &End, best: &[f64]) -> bool {
     let at_bound = |u: f64| !(AT..=1.0 - AT).contains(&u);
     let others = end.point.at.iter().zip(best);
-    end.open || others.into_iter().any(|(there, here)| at_bound(*there) && !at_bound(*here))
+    others.into_iter().any(|(there, here)| at_bound(*there) && !at_bound(*here))
 }
 
-fn verdict(u: f64, ends: &[End; 2], open: [bool; 2]) -> Verdict {
+/// Whether an interval ends because candidates beyond are moved back to a constraint: most of the rise is for the move.
+fn is_stopped(fitting: &Fitting, answer: &Answer, end: &End) -> bool {
+    let score = |cost: f64| fitting.fit.misfit.of_cost(cost);
+    let rise = score(end.point.value) - score(answer.best.value);
+    fitting.of_move(&end.point.at) > 0.5 * rise
+}
+
+/// Constraints that a point meets: their parameters and names.
+fn names_met<'f>(fitting: &'f Fitting, at: &[f64]) -> impl Iterator<Item = (Vec<usize>, &'f str)> {
+    let values = fitting.values(at);
+    let met = fitting.within.iter().flat_map(move |within| within.met(&values, AT).collect::<Vec<_>>());
+    met.map(|relation| (relation.terms.iter().map(|(i, _)| *i).collect(), relation.name.as_str()))
+}
+
+/// Whether a point meets a constraint that the best point does not.
+fn meets_more(fitting: &Fitting, at: &[f64], best: &[f64]) -> bool {
+    names_met(fitting, at).any(|(_, name)| names_met(fitting, best).all(|(_, other)| other != name))
+}
+
+fn verdict(u: f64, ends: &[End; 2], (stopped, open): ([bool; 2], [bool; 2]), at_constraint: bool) -> Verdict {
     let width = ends[1].at - ends[0].at;
     match () {
         () if width > EVERYTHING || (open == [true; 2] && width > WIDE) => Verdict::NotIdentified,
         () if u < AT && ends[0].open => Verdict::AtLowerBound,
         () if u > 1.0 - AT && ends[1].open => Verdict::AtUpperBound,
-        () if ends[0].open || ends[1].open => Verdict::OneSided,
+        () if at_constraint && stopped != [false; 2] => Verdict::AtConstraint,
+        () if stopped != [false; 2] => Verdict::OneSided,
         () if width > VAGUE => Verdict::Weak,
         () => Verdict::Identified,
     }
@@ -121,7 +148,7 @@ fn partners(fitting: &Fitting, answer: &Answer, i: usize) -> Vec<String> {
     partners.map(|(_, p)| p.name.clone()).collect()
 }
 
-fn words(verdict: Verdict, partners: &[String]) -> String {
+fn words(verdict: Verdict, partners: &[String], constraints: &[&str]) -> String {
     let with = match partners {
         [] => String::new(),
         names => format!(": {} compensates it", names.join(" or ")),
@@ -133,6 +160,7 @@ fn words(verdict: Verdict, partners: &[String]) -> String {
         Verdict::OneSided => format!("bounded on one side only{with}"),
         Verdict::AtLowerBound => "at its lower bound".to_owned(),
         Verdict::AtUpperBound => "at its upper bound".to_owned(),
+        Verdict::AtConstraint => format!("at constraint {}", constraints.join(" and ")),
         Verdict::NotIdentified => format!("not identified{with}"),
     }
 }

@@ -352,3 +352,17 @@ fn each_row(
     }
     Ok(Ok(()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_of_the_reader_is_an_error_in_our_words_and_later_ones_are_told_again() {
+        let rows: Vec<u8> = Vec::new();
+        let found = unbroken(|| rows[rows.len()]).unwrap_err();
+        assert!(found.to_string().ends_with("it is damaged"), "{found}");
+        assert!(!IS_QUIET.get());
+        assert_eq!(unbroken(|| 3).ok(), Some(3));
+    }
+}

@@ -5,10 +5,11 @@
 //! metadata on; both take the digits of both as zeros. So the description is believed without a look at the rows.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
@@ -18,7 +19,7 @@ use super::folder::Folder;
 use super::manifest::Manifest;
 use super::problem::Problem;
 use super::row::Row;
-use crate::base::{Failure, PartialFile, each_portion, file_name};
+use crate::base::{Failure, PartialFile, each_portion};
 use crate::files::store::Store;
 use occupant_files::table::StoredTable;
 
@@ -33,6 +34,10 @@ const MOST_OF_END: u64 = 256 << 20;
 const TAIL: u64 = 8;
 /// Bytes fetched at a time.
 const AT_ONCE: u64 = 8 << 20;
+/// Bytes of the end of a part in a store that are fetched at first: more than most ends have.
+const USUAL_END: u64 = 256 << 10;
+/// Number of ends fetched at a time.
+const ENDS_AT_ONCE: usize = 32;
 
 /// What a part says of itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,14 +64,23 @@ pub struct About {
 /// A part that is there.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its path.
+    /// Its path; of one in a store its address.
     pub path: PathBuf,
     /// Its description.
     pub about: About,
-    /// The store that it is in, and its name and size there; its path is where it is fetched to.
-    stored: Option<(Store, String, u64)>,
+    stored: Option<Stored>,
     /// Set once all its bytes have been checked.
     checked: Arc<OnceLock<()>>,
+}
+
+/// Where a part in a store is.
+#[derive(Clone, Debug)]
+struct Stored {
+    store: Store,
+    name: String,
+    size: u64,
+    /// The folder of this machine that it is fetched to.
+    to: PathBuf,
 }
 
 impl About {
@@ -119,15 +133,36 @@ impl Part {
         Ok(Some(Part { path: path.to_owned(), about, stored: None, checked: Arc::default() }))
     }
 
-    /// The part with this name in a store, by its description; it is fetched to read its rows.
+    /// Parts with these names and sizes in a store, by their descriptions; one is fetched each time its rows are read.
     ///
     /// # Errors
     /// As [`Part::open`]; what the store says.
-    pub fn in_store(folder: &Folder, store: &Store, name: &str, size: u64, study: &str) -> Result<Part, Problem> {
-        let path = folder.journal().join(format!("{}.{}.fetched", file_name(Path::new(name)), std::process::id()));
-        let end = End::of(size, |bytes| store.range(name, bytes)).map_err(Problem::io("read", Path::new(name)))?;
-        let about = About::of_end(end, study, &Path::new(store.address()).join(name))?;
-        Ok(Part { path, about, stored: Some((store.clone(), name.to_owned(), size)), checked: Arc::default() })
+    pub fn in_store(
+        folder: &Folder,
+        store: &Store,
+        listed: &[(String, u64)],
+        study: &str,
+    ) -> Result<Vec<Part>, Problem> {
+        let mut parts = Vec::new();
+        for some in listed.chunks(ENDS_AT_ONCE) {
+            let tails = some.iter().map(|(name, size)| (name.as_str(), size.saturating_sub(USUAL_END)..*size));
+            let tails = store
+                .ranges(&tails.collect::<Vec<_>>())
+                .map_err(|found| of_store(Path::new(store.address()), found))?;
+            for ((name, size), tail) in some.iter().zip(tails) {
+                let path = PathBuf::from(format!("{}/{name}", store.address()));
+                let from = size.saturating_sub(tail.len() as u64);
+                let read = |bytes: Range<u64>| match bytes.start.checked_sub(from) {
+                    Some(first) => Ok(tail[first as usize..(bytes.end - from) as usize].to_vec()),
+                    None => store.range(name, bytes),
+                };
+                let end = End::of(*size, read).map_err(|found| of_store(&path, found))?;
+                let about = About::of_end(end, study, &path)?;
+                let stored = Stored { store: store.clone(), name: name.clone(), size: *size, to: folder.journal() };
+                parts.push(Part { path, about, stored: Some(stored), checked: Arc::default() });
+            }
+        }
+        Ok(parts)
     }
 
     /// Checks all bytes, once.
@@ -136,19 +171,15 @@ impl Part {
     /// A file that was changed; an error of the operating system.
     pub fn check(&self) -> Result<(), Problem> {
         if self.checked.get().is_none() {
-            self.refuse_damage()?;
+            self.refuse_damage(&mut self.file()?)?;
         }
-        self.checked.get_or_init(|| ());
         Ok(())
     }
 
-    fn refuse_damage(&self) -> Result<(), Problem> {
-        let crc32 = || {
-            let mut file = File::open(&self.path)?;
-            let end = End::read(&mut file)?;
-            end.map(|end| end.of_file(&mut file)).transpose()
-        };
+    fn refuse_damage(&self, file: &mut File) -> Result<(), Problem> {
+        let mut crc32 = || End::read(file)?.map(|end| end.of_file(file)).transpose();
         if crc32().map_err(Problem::io("read", &self.path))?.as_ref() == Some(&self.about.crc32) {
+            self.checked.get_or_init(|| ());
             return Ok(());
         }
         Err(Problem::Damaged { path: self.path.clone(), found: "was changed after it was written".to_owned() })
@@ -163,10 +194,12 @@ impl Part {
         samples: &Range<u64>,
         see: &mut impl FnMut(Row) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let fetched = self.fetched()?;
+        let mut file = self.file()?;
         // each copy that is fetched is another
-        if fetched.is_some() { self.refuse_damage() } else { self.check() }?;
-        let table = StoredTable::open(&self.path).map_err(Problem::io("read", &self.path))?;
+        if self.stored.is_some() || self.checked.get().is_none() {
+            self.refuse_damage(&mut file)?;
+        }
+        let table = StoredTable::of(file).map_err(Problem::io("read", &self.path))?;
         let inputs = table.columns().skip(1).take_while(|name| *name != "status").count();
         let mut next = self.about.first;
         for (number, count) in table.groups().enumerate() {
@@ -187,18 +220,18 @@ impl Part {
         if next == self.about.samples().end { Ok(()) } else { Err(self.without_row().into()) }
     }
 
-    /// Fetches it from its store for a while.
-    fn fetched(&self) -> Result<Option<Fetched<'_>>, Problem> {
-        let Some((store, name, size)) = &self.stored else { return Ok(None) };
-        let here = Fetched(&self.path);
-        let fetch = || {
-            self.path.parent().map_or(Ok(()), fs::create_dir_all)?;
-            let mut file = File::create(&self.path)?;
-            let mut starts = (0..*size).step_by(AT_ONCE as usize);
-            starts.try_for_each(|from| file.write_all(&store.range(name, from..(from + AT_ONCE).min(*size))?))
+    /// The file to read: its own, or one fetched from its store, which no other reader sees.
+    fn file(&self) -> Result<File, Problem> {
+        let Some(Stored { store, name, size, to }) = &self.stored else {
+            return File::open(&self.path).map_err(Problem::io("read", &self.path));
         };
-        fetch().map_err(Problem::io("fetch", &Path::new(store.address()).join(name)))?;
-        Ok(Some(here))
+        let mut file = unnamed(to).map_err(Problem::io("write in", to))?;
+        for from in (0..*size).step_by(AT_ONCE as usize) {
+            let bytes = store.range(name, from..(from + AT_ONCE).min(*size));
+            let bytes = bytes.map_err(|found| of_store(&self.path, found))?;
+            file.write_all(&bytes).map_err(Problem::io("write in", to))?;
+        }
+        Ok(file)
     }
 
     fn without_row(&self) -> Problem {
@@ -206,13 +239,21 @@ impl Part {
     }
 }
 
-/// A file of this machine that is not needed for long.
-struct Fetched<'p>(&'p Path);
+fn of_store(address: &Path, found: io::Error) -> Problem {
+    Problem::Store { address: address.display().to_string(), found }
+}
 
-impl Drop for Fetched<'_> {
-    fn drop(&mut self) {
-        // one that cannot be removed is replaced the next time
-        let _stays = fs::remove_file(self.0);
+/// A new file in a folder, without a name: it is gone when it is closed, also by a process that is killed.
+fn unnamed(folder: &Path) -> io::Result<File> {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    fs::create_dir_all(folder)?;
+    loop {
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let path = folder.join(format!("{}.{number}.fetched", std::process::id()));
+        match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            opened => return opened.and_then(|file| fs::remove_file(&path).map(|()| file)),
+        }
     }
 }
 

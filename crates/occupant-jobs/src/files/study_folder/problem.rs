@@ -1,6 +1,6 @@
 //! Problems of a folder of results.
 
-use std::io;
+use std::io::{self, ErrorKind};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -71,14 +71,12 @@ pub enum Problem {
         doing: String,
     },
     /// An object store that does not do what is asked.
-    #[error(
-        "{address}: {found}\n = help: look at address, network and the keys of the environment, and give the same command again"
-    )]
+    #[error("{address}: {found}\n = help: {}", mend(found.kind()))]
     Store {
         /// Its address.
         address: String,
         /// What it says.
-        found: String,
+        found: io::Error,
     },
     /// Samples are unfinished.
     #[error(
@@ -110,6 +108,20 @@ impl Problem {
     pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
         let path = path.to_owned();
         move |source| Problem::File(FileProblem::Io { doing, path, source })
+    }
+}
+
+/// What helps against what a store has said.
+fn mend(of: ErrorKind) -> &'static str {
+    match of {
+        ErrorKind::InvalidInput => "make the bucket, or correct its name; nothing of it is there",
+        ErrorKind::InvalidData => "look at the endpoint of the environment: what answers there is no store of a sweep",
+        ErrorKind::PermissionDenied => {
+            "look at the keys of the environment, such as AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY, AWS_SESSION_TOKEN, and their rights to read, list and write"
+        }
+        _ => {
+            "look at address, network, and endpoint and region of the environment (AWS_ENDPOINT, AWS_REGION; AWS_ALLOW_HTTP=true for http); a slow line needs AWS_TIMEOUT=10m or smaller ranges. What is finished is kept: give the same command again"
+        }
     }
 }
 

@@ -37,8 +37,8 @@ impl Shard {
         }
     }
 
-    /// The shard given by the environment, and the variable: `OCCUPANT_SHARD`, or else the Slurm job array of the
-    /// process.
+    /// The shard given by the environment, and the variable: `OCCUPANT_SHARD`, or else the Slurm job array of the process, or
+    /// else the index of the Kubernetes job, one of `OCCUPANT_SHARDS`.
     ///
     /// # Errors
     /// Variables that name no shard.
@@ -54,7 +54,10 @@ impl Shard {
             get(name).map(read).transpose()
         };
         let Some(id) = number("SLURM_ARRAY_TASK_ID")? else {
-            return Ok(None);
+            let Some(index) = number("JOB_COMPLETION_INDEX")? else { return Ok(None) };
+            let count = number("OCCUPANT_SHARDS")?
+                .ok_or("JOB_COMPLETION_INDEX is set, but not OCCUPANT_SHARDS; give it the completions of the job")?;
+            return Ok(Some((Shard::new(index.saturating_add(1), count)?, "JOB_COMPLETION_INDEX")));
         };
         let count = number("SLURM_ARRAY_TASK_COUNT")?;
         let count = count.ok_or("SLURM_ARRAY_TASK_ID is set, but not SLURM_ARRAY_TASK_COUNT")?;
@@ -147,5 +150,16 @@ mod tests {
         for refused in [&slurm[..1], &[slurm[0], slurm[1]], &slurm[..3]] {
             assert!(Shard::from_environment(environment(refused)).is_err(), "{refused:?}");
         }
+    }
+
+    #[test]
+    fn an_indexed_job_of_kubernetes_counts_from_nought() {
+        let job = [("JOB_COMPLETION_INDEX", "7"), ("OCCUPANT_SHARDS", "8")];
+        let last = Shard::parse("8/8").unwrap();
+        assert_eq!(Shard::from_environment(environment(&job)), Ok(Some((last, "JOB_COMPLETION_INDEX"))));
+        assert_eq!(Shard::from_environment(environment(&job[1..])), Ok(None));
+        let refused = |pairs: &[(&str, &str)]| Shard::from_environment(environment(pairs)).unwrap_err();
+        assert!(refused(&job[..1]).contains("completions of the job"));
+        assert!(refused(&[job[0], ("OCCUPANT_SHARDS", "7")]).contains("the last is 7/7"));
     }
 }

@@ -35,7 +35,7 @@ impl Folder {
     }
 
     fn said(&self) -> impl Fn(io::Error) -> Problem {
-        |error| Problem::Store { address: self.shown(), found: error.to_string() }
+        |found| Problem::Store { address: self.shown(), found }
     }
 
     /// The manifest of the store, if it has one.
@@ -44,7 +44,11 @@ impl Folder {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             got => got.map_err(self.said())?,
         };
-        let manifest = serde_json::from_slice(&bytes).map_err(|error| self.said()(error.into()))?;
+        let no_manifest = |error: serde_json::Error| {
+            let name = file_name(&self.manifest_path());
+            io::Error::new(ErrorKind::InvalidData, format!("its {name} is none of a sweep: {error}"))
+        };
+        let manifest = serde_json::from_slice(&bytes).map_err(|error| self.said()(no_manifest(error)))?;
         Ok(Some((bytes, manifest)))
     }
 
@@ -77,9 +81,10 @@ impl Folder {
     pub(super) fn stored_parts(&self, study: &str) -> Result<Vec<Part>, Problem> {
         let Some(store) = &self.store else { return Ok(Vec::new()) };
         let listed = store.list(PARTS).map_err(self.said())?;
-        let listed =
-            listed.into_iter().filter(|(name, _)| Block::of_file(name).is_some() && name.ends_with(".parquet"));
-        listed.map(|(name, size)| Part::in_store(self, store, &format!("{PARTS}/{name}"), size, study)).collect()
+        let is_part = |name: &str| Block::of_file(name).is_some() && name.ends_with(".parquet");
+        let parts = listed.into_iter().filter(|(name, _)| is_part(name));
+        let parts: Vec<_> = parts.map(|(name, size)| (format!("{PARTS}/{name}"), size)).collect();
+        Part::in_store(self, store, &parts, study)
     }
 
     /// Whether the store has the part of a range; it looks at no other.

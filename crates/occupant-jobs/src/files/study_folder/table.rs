@@ -59,7 +59,9 @@ impl StudyTable {
         let ending = [Cell::text(row.status.word()), reason, caveats];
         let work = [Cell::Number(row.wall_time_s), Cell::text(&row.kernel)];
         let cells = [&begin[..], inputs, &ending, figures, &work].concat();
-        self.files.iter_mut().try_for_each(|file| file.row(cells.clone()))
+        let Some((last, others)) = self.files.split_last_mut() else { return Ok(()) };
+        others.iter_mut().try_for_each(|file| file.row(cells.clone()))?;
+        last.row(cells)
     }
 
     /// Describes the part of a study that a Parquet file is, and renames the complete files.
