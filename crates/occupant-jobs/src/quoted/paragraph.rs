@@ -105,7 +105,7 @@ fn over(limit: &Exceeded, about: &About, of: &Statement, unit: &Told) -> String 
     if of.without_intervals.is_some() {
         return format!("{start}.");
     }
-    let [p, low, high] = [found.probability, found.low, found.high].map(percent);
+    let [p, low, high] = percents([found.probability, found.low, found.high]);
     let wide = found.high - found.low > occupant_study::certainty::NARROW;
     let needed = if wide {
         format!("; for an interval of 10 percentage points it would take about {}", found.needed)
@@ -145,9 +145,24 @@ pub fn percent(p: f64) -> String {
     }
 }
 
+/// The same of a probability and the ends of its interval, with as many digits as tell the ends apart.
+fn percents(all: [f64; 3]) -> [String; 3] {
+    let apart = |texts: &[String; 3]| all[1] == all[2] || texts[1] != texts[2];
+    let finer = (2..=6).map(|digits| all.map(|p| format!("{:.digits$}", 100.0 * p)));
+    std::iter::once(all.map(percent)).chain(finer).find(apart).unwrap_or_else(|| all.map(percent))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::percent;
+    use super::{percent, percents};
+
+    #[test]
+    fn the_ends_of_a_narrow_interval_are_told_apart() {
+        assert_eq!(percents([0.35, 0.2, 0.5]), ["35", "20", "50"]);
+        // of ten million runs
+        assert_eq!(percents([0.11, 0.1098, 0.1102]), ["11.00", "10.98", "11.02"]);
+        assert_eq!(percents([1.0; 3]), ["100"; 3]);
+    }
 
     #[test]
     fn probabilities_are_never_rounded_to_none_or_all() {
