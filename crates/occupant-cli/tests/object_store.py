@@ -20,8 +20,9 @@ import time
 from pathlib import Path
 
 import boto3
-import pyarrow.parquet as parquet
 from moto.server import ThreadedMotoServer
+
+from recipes import table
 
 ROOT = Path(__file__).resolve().parents[3]
 SHARDS, MACHINES, LONGEST = 8, 3, 100
@@ -38,11 +39,6 @@ range = {{ from = "10 in lbf s/rad", to = "40 in lbf s/rad" }}
 def expect(condition, words):
     if not condition:
         sys.exit(f"object_store: {words}")
-
-
-def table(folder):
-    rows = parquet.read_table(folder / "results.parquet").drop_columns(["wall_time_s", "kernel"])
-    return rows.num_rows, [repr(column.to_pylist()) for column in rows.columns]
 
 
 class Trouble(http.server.BaseHTTPRequestHandler):

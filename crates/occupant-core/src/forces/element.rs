@@ -110,7 +110,8 @@ pub trait Element: Copy + Debug {
         f: &impl Fn(S, A) -> T,
     ) -> Result<Self::Law<T>, Unlike>;
 
-    /// Whether a commit marks the elements whose memory it may have changed; otherwise it may have changed any.
+    /// Whether a commit marks the elements whose memory it may have changed; otherwise it may have changed any. Histories have
+    /// room for the marks of one kind.
     const MARKS: bool = false;
 
     /// Calls f with each pair of corresponding numbers of two memories, in a fixed order.

@@ -31,6 +31,8 @@ macro_rules! kinds {
         /// Number of kinds.
         pub(crate) const KINDS: usize = [$(stringify!($kind)),+].len();
 
+        const _: () = assert!(0 $(+ $Kind::MARKS as usize)+ <= 1, "a history has the marks of one kind");
+
         /// Number of stored energies.
         pub(crate) const STORES: usize = 0 $(+ $Kind::STORED.len())+;
 

@@ -153,7 +153,10 @@ impl Part {
                 let path = PathBuf::from(format!("{}/{name}", store.address()));
                 let from = size.saturating_sub(tail.len() as u64);
                 let read = |bytes: Range<u64>| match bytes.start.checked_sub(from) {
-                    Some(first) => Ok(tail[first as usize..(bytes.end - from) as usize].to_vec()),
+                    // a part that was replaced since it was listed has another length
+                    Some(first) => tail
+                        .get(first as usize..bytes.end.saturating_sub(from) as usize)
+                        .map_or_else(|| Err(ErrorKind::UnexpectedEof.into()), |bytes| Ok(bytes.to_vec())),
                     None => store.range(name, bytes),
                 };
                 let end = End::of(*size, read).map_err(|found| of_store(&path, found))?;
