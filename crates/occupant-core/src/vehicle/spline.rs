@@ -43,16 +43,16 @@ pub(super) fn linear_pieces(times_s: &[f64], values: &[Vector6<f64>]) -> Vec<Pie
 /// End condition of a spline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
-    /// Zero curvature.
-    Natural,
+    /// A given second derivative; zero is a natural end.
+    Given,
     /// Zero velocity: a vehicle or panel held there does not jump.
     AtRest,
 }
 
-/// The cubic spline through the stations: twice continuously differentiable, second derivative zero at its first end and, if
-/// natural, at its last. Times increase; two stations give a straight line then.
-pub(super) fn spline_pieces(times_s: &[f64], values: &[Vector6<f64>], end: End) -> Vec<Piece> {
-    pieces(times_s, values, &second_derivatives(times_s, values, end))
+/// The cubic spline through the stations: twice continuously differentiable, with the second derivatives `ends` at its first and,
+/// unless it ends at rest, at its last station. Times increase.
+pub(super) fn spline_pieces(times_s: &[f64], values: &[Vector6<f64>], ends: [Vector6<f64>; 2], end: End) -> Vec<Piece> {
+    pieces(times_s, values, &second_derivatives(times_s, values, ends, end))
 }
 
 /// Pieces between stations with the given second derivatives at the stations.
@@ -73,14 +73,22 @@ fn pieces(times_s: &[f64], values: &[Vector6<f64>], seconds: &[Vector6<f64>]) ->
         .collect()
 }
 
-/// Second derivatives M_i of the spline at its stations: M_0 = 0, between
-/// h_{i−1} M_{i−1} + 2 (h_{i−1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i − slope_{i−1}), and at the end M_n = 0 or, of one at
+/// Second derivatives M_i of the spline at its stations: M_0 as given, between
+/// h_{i−1} M_{i−1} + 2 (h_{i−1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i − slope_{i−1}), and at the end M_n as given or, of one at
 /// rest, h_{n−1} M_{n−1} + 2 h_{n−1} M_n = 6 (0 − slope_{n−1}).
-fn second_derivatives(times_s: &[f64], values: &[Vector6<f64>], end: End) -> Vec<Vector6<f64>> {
+fn second_derivatives(
+    times_s: &[f64],
+    values: &[Vector6<f64>],
+    [first, last]: [Vector6<f64>; 2],
+    end: End,
+) -> Vec<Vector6<f64>> {
     let count = values.len();
     let length = |i: usize| times_s[i + 1] - times_s[i];
     let slope = |i: usize| (values[i + 1] - values[i]) / length(i);
     let mut seconds = vec![Vector6::zeros(); count];
+    if let [start, .., end] = &mut seconds[..] {
+        (*start, *end) = (first, last);
+    }
     let mut ratios = vec![0.0; count];
     // Forward sweep: M_i = seconds_i − ratio_i M_{i+1}
     for i in 1..count.saturating_sub(1) {

@@ -1,6 +1,6 @@
 //! A vehicle path given by stations in time: the report's tabular record (its POSVEH), or a smooth one.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
@@ -44,7 +44,7 @@ pub enum AfterEnd {
 impl AfterEnd {
     /// End condition of a spline that is followed by this.
     fn end(self) -> End {
-        if self == AfterEnd::Hold { End::AtRest } else { End::Natural }
+        if self == AfterEnd::Hold { End::AtRest } else { End::Given }
     }
 
     /// Whether a path given from `first_s` to `last_s` has an answer from `start_s` to `end_s`.
@@ -74,6 +74,8 @@ pub struct TablePath {
     stations: Vec<Station>,
     interpolation: Interpolation,
     after: AfterEnd,
+    /// Accelerations of a spline at the first and at the last station, m/s², in the axes of the stations.
+    ends_m_s2: [Vector3<f64>; 2],
     pieces: Vec<Piece>,
     /// For linear interpolation only.
     differences: Option<Differences>,
@@ -84,13 +86,36 @@ pub struct TablePath {
 }
 
 impl TablePath {
-    /// A path through `stations`.
+    /// A path through `stations`; a spline has zero curvature at its ends.
     ///
     /// # Errors
     /// Everything that is wrong with the stations at once: fewer than two of them, times that do not increase, numbers
     /// that are not finite, angles that jump by more than half a turn (see [`unwrap_angles`](super::unwrap_angles)).
     pub fn new(
         stations: Vec<Station>,
+        interpolation: Interpolation,
+        after: AfterEnd,
+    ) -> Result<Self, Vec<PathProblem>> {
+        TablePath::between(stations, [Vector3::zeros(); 2], interpolation, after)
+    }
+
+    /// A spline through `stations` with given accelerations at the first and at the last one, in the axes of the stations, m/s². So
+    /// places that are integrals of accelerations along straight lines give these accelerations back. The last one does not count
+    /// where the vehicle is at rest after it.
+    ///
+    /// # Errors
+    /// As [`TablePath::new`].
+    pub fn with_accelerations_at_ends(
+        stations: Vec<Station>,
+        ends_m_s2: [Vector3<f64>; 2],
+        after: AfterEnd,
+    ) -> Result<Self, Vec<PathProblem>> {
+        TablePath::between(stations, ends_m_s2, Interpolation::Spline, after)
+    }
+
+    fn between(
+        stations: Vec<Station>,
+        ends_m_s2: [Vector3<f64>; 2],
         interpolation: Interpolation,
         after: AfterEnd,
     ) -> Result<Self, Vec<PathProblem>> {
@@ -102,14 +127,17 @@ impl TablePath {
         let values: Vec<Vector6<f64>> = stations.iter().map(Station::channels).collect();
         let pieces = match interpolation {
             Interpolation::Linear => linear_pieces(&times_s, &values),
-            Interpolation::Spline => spline_pieces(&times_s, &values, after.end()),
+            Interpolation::Spline => {
+                let ends = ends_m_s2.map(|a| Vector6::new(a.x, a.y, a.z, 0.0, 0.0, 0.0));
+                spline_pieces(&times_s, &values, ends, after.end())
+            }
         };
         let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
         let (first_s, last_s) = (times_s[0], times_s[times_s.len() - 1]);
         let ends = [motion_of(first, first, first_s), motion_of(last, last, last_s)];
         let last_rates_rad_s = last.rate(last_s).fixed_rows::<3>(3).into_owned();
         let differences = (interpolation == Interpolation::Linear).then(|| Differences::new(&times_s, &values, after));
-        Ok(TablePath { stations, interpolation, after, pieces, differences, ends, last_rates_rad_s })
+        Ok(TablePath { stations, interpolation, after, ends_m_s2, pieces, differences, ends, last_rates_rad_s })
     }
 
     /// The same path with accelerations, those of its angles too, times `strength`: place, angles and their rates at the first time stay.
@@ -124,7 +152,26 @@ impl TablePath {
             let v = steady + (station.channels() - steady) * strength;
             Station::new(station.time_s, [v[0], v[1], v[2]], [v[3], v[4], v[5]])
         };
-        TablePath::new(self.stations.iter().map(scaled).collect(), self.interpolation, self.after)
+        let ends_m_s2 = self.ends_m_s2.map(|a| a * strength);
+        TablePath::between(self.stations.iter().map(scaled).collect(), ends_m_s2, self.interpolation, self.after)
+    }
+
+    /// The same path with the changes of its velocity turned about the vertical by `turn_rad`, to the right; angles stay.
+    ///
+    /// # Errors
+    /// As [`TablePath::new`].
+    pub fn turned(&self, turn_rad: f64) -> Result<Self, Vec<PathProblem>> {
+        let first = &self.stations[0];
+        let (from_s, start) = (first.time_s, first.pose.position_m);
+        let speed_m_s = self.pieces[0].rate(from_s).fixed_rows::<3>(0).into_owned();
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), turn_rad);
+        let station = |station: &Station| {
+            let steady = start + speed_m_s * (station.time_s - from_s);
+            let place = steady + turn * (station.pose.position_m - steady);
+            Station { pose: VehiclePose { position_m: place, ..station.pose }, ..*station }
+        };
+        let ends_m_s2 = self.ends_m_s2.map(|a| turn * a);
+        TablePath::between(self.stations.iter().map(station).collect(), ends_m_s2, self.interpolation, self.after)
     }
 
     /// The stations.

@@ -1,11 +1,9 @@
-//! Records of a path scaled to a delta-v, moved in time, turned.
-
-use nalgebra::{Rotation3, Vector3};
+//! Records of a path scaled to a delta-v and moved in time.
 
 use super::Time;
 use super::number_table::NumberTable;
 use super::quantity::si_or;
-use occupant_core::vehicle::{Attitude, PathCursor, PathProblem, Station, TablePath, VehiclePath};
+use occupant_core::vehicle::{PathCursor, VehiclePath};
 
 /// What `delta_v` needs.
 pub(super) const CHANGES: &str = "a table in which the velocity changes, or no `delta_v`";
@@ -73,25 +71,4 @@ pub(super) fn shift(table: &mut NumberTable, shift: &Option<Time>, before: impl 
             table.row_spans.insert(0, span);
         }
     }
-}
-
-/// The path with its changes of horizontal velocity turned about the vertical.
-pub(super) fn turned(path: TablePath, turn_rad: f64) -> Result<TablePath, Vec<PathProblem>> {
-    if turn_rad == 0.0 {
-        return Ok(path);
-    }
-    let (first, after) = (path.stations()[0], path.after());
-    let interpolation = path.interpolation();
-    let whole = VehiclePath::Table(path.clone());
-    let speed_m_s = whole.motion(first.time_s, first.time_s, &mut PathCursor::default()).velocity_m_s;
-    // motions are in axes with Y to the left and Z up, stations to the right and down
-    let speed_m_s = Vector3::new(speed_m_s.x, -speed_m_s.y, -speed_m_s.z);
-    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), turn_rad);
-    let station = |station: &Station| {
-        let steady = first.pose.position_m + speed_m_s * (station.time_s - first.time_s);
-        let place = steady + turn * (station.pose.position_m - steady);
-        let Attitude { roll_rad, pitch_rad, yaw_rad } = station.pose.attitude;
-        Station::new(station.time_s, place.into(), [roll_rad, pitch_rad, yaw_rad])
-    };
-    TablePath::new(path.stations().iter().map(station).collect(), interpolation, after)
 }

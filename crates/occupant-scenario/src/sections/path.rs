@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::adjusted::{CHANGES, scale_to, shift, turned};
+use super::adjusted::{CHANGES, scale_to, shift};
 use super::builder::Builder;
 use super::drive::{self, DrivenPathSection};
 use super::number_table::{Column, NumberTable, column, names_of, read_csv, read_inline};
@@ -187,8 +187,15 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
     if let Some(filter) = &s.filter {
         stations = smoothed(&stations, filter.si()).map_err(|found| b.error("path.filter", found, SMOOTHED)).ok()?;
     }
-    let path = TablePath::new(stations, s.interpolation.unwrap_or_default(), s.after.unwrap_or_default());
-    let path = path.and_then(|path| turned(path, si_or(&s.turn, 0.0)));
+    let after = s.after.unwrap_or_default();
+    let path = match s.filter.is_some() || !(PLACES[1]..PLACES[1] + 3).any(|i| table.present[i]) {
+        true => TablePath::new(stations, s.interpolation.unwrap_or_default(), after),
+        false => TablePath::with_accelerations_at_ends(stations, ends(s, &table.rows), after),
+    };
+    let path = match si_or(&s.turn, 0.0) {
+        0.0 => path,
+        turn_rad => path.and_then(|path| path.turned(turn_rad)),
+    };
     let strength = s.strength.as_ref().map(Ratio::si);
     let found = match (path, &s.delta_v) {
         (Ok(path), Some(asked)) => {
@@ -223,7 +230,8 @@ fn check_accelerations(b: &mut Builder, s: &TableSection, table: &NumberTable) -
 }
 
 /// Positions from accelerations that are straight lines between the times:
-/// v′ = v + h (a + a′)/2, x′ = x + h v + h² (2a + a′)/6. A spline through them has these accelerations, if its first and last one are 0.
+/// v′ = v + h (a + a′)/2, x′ = x + h v + h² (2a + a′)/6. A spline through them with the accelerations at its ends has
+/// them everywhere.
 fn integrate(table: &mut NumberTable) {
     for axis in 0..3 {
         let [place, acceleration] = PLACES.map(|from| from + axis);
@@ -255,6 +263,12 @@ fn smoothed(stations: &[Station], cutoff_hz: f64) -> Result<Vec<Station>, String
     let places = [x?, y?, z?];
     let at = |i: usize| Station::new(time_s[i], [0, 1, 2].map(|a| places[a][i]), [0, 1, 2].map(|a| angles[a][i]));
     Ok((0..time_s.len()).map(at).collect())
+}
+
+/// The accelerations at the first and at the last time, z down.
+fn ends(s: &TableSection, rows: &[Vec<f64>]) -> [Vector3<f64>; 2] {
+    let sign = s.axes.map_or([1.0; 3], SensorAxes::signs);
+    [0, rows.len() - 1].map(|i| Vector3::from_fn(|axis, _| sign[axis] * rows[i][PLACES[1] + axis]))
 }
 
 /// The vehicle's centre of gravity and angles, z down, at the times of the table.

@@ -39,7 +39,7 @@ fn a_csv_file_gives_the_path_in_its_own_units() {
 }
 
 const ALONG_THE_SLED: &str = "kind = \"table\"\naxes = \"z_up\"\nafter = \"coast\"\ncolumns = [\"t[ms]\", \"ax[g]\", \"az[g]\", \"pitch[deg]\"]\n\
-                              rows = [[0, 0, 0, 0], [20, -6, 2, 1], [50, -9, -1, 7], [60, -3, 0, 9], [100, 0, 0, 12]]";
+                              rows = [[0, -4, 1, 0], [20, -6, 2, 1], [50, -9, -1, 7], [60, -3, 0, 9], [100, 2, 3, 12]]";
 
 /// Accelerations along axes that do not turn are the path's, straight lines between the times, whatever the angle; speed and place are
 /// their integrals from rest, over triangles and by Simpson's rule, exact for straight lines.
@@ -47,7 +47,7 @@ const ALONG_THE_SLED: &str = "kind = \"table\"\naxes = \"z_up\"\nafter = \"coast
 fn accelerations_along_the_axes_of_a_sled_give_the_path() {
     let path = with_csv(ALONG_THE_SLED, "").unwrap().path;
     let g = occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
-    let (t, x, z) = ([0.0, 0.02, 0.05, 0.06, 0.1], [0.0, -6.0, -9.0, -3.0, 0.0], [0.0, 2.0, -1.0, 0.0, 0.0]);
+    let (t, x, z) = ([0.0, 0.02, 0.05, 0.06, 0.1], [-4.0, -6.0, -9.0, -3.0, 2.0], [1.0, 2.0, -1.0, 0.0, 3.0]);
     let (mut speed, mut place) = ([0.0; 2], [0.0; 2]);
     for i in 0..4 {
         let h = t[i + 1] - t[i];
@@ -73,6 +73,19 @@ fn accelerations_along_the_axes_of_a_sled_give_the_path() {
             (motion.velocity_m_s.z - speed[1]).abs() < 1e-12 && (motion.origin_m.z - place[1]).abs() < 1e-13,
             "{i}"
         );
+    }
+}
+
+/// `strength` and `turn` act on the accelerations at the ends too.
+#[test]
+fn accelerations_along_the_axes_of_a_sled_are_scaled_and_turned() {
+    let text = format!("{ALONG_THE_SLED}\nstrength = 0.5\nturn = 90");
+    let path = with_csv(&text, "").unwrap().path;
+    let g = occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+    for (time_s, x, z) in [(0.0, -4.0, 1.0), (0.01, -5.0, 1.5), (0.055, -6.0, -0.5), (0.1, 2.0, 3.0)] {
+        let found = path.motion(time_s, time_s, &mut PathCursor::default()).acceleration_m_s2;
+        // to the right is -Y in axes with Z up
+        assert_relative_eq!(found, nalgebra::Vector3::new(0.0, -x, z) * (0.5 * g), epsilon = 1e-10);
     }
 }
 

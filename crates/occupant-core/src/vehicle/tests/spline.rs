@@ -3,6 +3,8 @@ use nalgebra::Vector6;
 use super::super::support::{Seeded, assert_below};
 use super::*;
 
+const NATURAL: [Vector6<f64>; 2] = [Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0); 2];
+
 fn stations(seeded: &mut Seeded, count: usize) -> (Vec<f64>, Vec<Vector6<f64>>) {
     let mut time_s = seeded.between(-1.0, 1.0);
     (0..count)
@@ -17,9 +19,9 @@ fn stations(seeded: &mut Seeded, count: usize) -> (Vec<f64>, Vec<Vector6<f64>>) 
 fn a_spline_meets_its_stations_with_continuous_slope_and_curvature() {
     let mut seeded = Seeded(11);
     let [mut value, mut rate, mut second, mut ends] = [0.0f64; 4];
-    for (count, end) in (2..40).flat_map(|count| [(count, End::Natural), (count, End::AtRest)]) {
+    for (count, end) in (2..40).flat_map(|count| [(count, End::Given), (count, End::AtRest)]) {
         let (times_s, values) = stations(&mut seeded, count);
-        let pieces = spline_pieces(&times_s, &values, end);
+        let pieces = spline_pieces(&times_s, &values, NATURAL, end);
         assert_eq!(pieces.len(), count - 1);
         for i in 0..count - 1 {
             value = value.max((pieces[i].value(times_s[i]) - values[i]).amax());
@@ -33,7 +35,7 @@ fn a_spline_meets_its_stations_with_continuous_slope_and_curvature() {
         ends = ends.max(pieces[0].second_rate(times_s[0]).amax());
         let last = (&pieces[count - 2], times_s[count - 1]);
         ends = ends.max(match end {
-            End::Natural => last.0.second_rate(last.1).amax(),
+            End::Given => last.0.second_rate(last.1).amax(),
             End::AtRest => last.0.rate(last.1).amax(),
         });
     }
@@ -51,8 +53,8 @@ fn a_spline_that_ends_at_rest_follows_what_comes_to_rest() {
     let place = |t: f64| 0.5 * most_m * (1.0 - (std::f64::consts::PI * t / end_s).cos());
     let times_s: Vec<f64> = (0..9).map(|i| 0.01 * f64::from(i)).collect();
     let values: Vec<_> = times_s.iter().map(|t| Vector6::repeat(place(*t))).collect();
-    let end_m_s = [End::Natural, End::AtRest].map(|end| {
-        let pieces = spline_pieces(&times_s, &values, end);
+    let end_m_s = [End::Given, End::AtRest].map(|end| {
+        let pieces = spline_pieces(&times_s, &values, NATURAL, end);
         let off = |i: usize| (pieces[i / 10].value(1e-3 * i as f64).x - place(1e-3 * i as f64)).abs();
         // in the half where the end acts; measured: 4.1e-4 and 4.4e-6 m
         let off_m = (40..80).map(off).fold(0.0, f64::max);
@@ -69,7 +71,7 @@ fn a_straight_line_stays_straight() {
     let (times_s, _) = stations(&mut seeded, 30);
     let (start, slope) = (Vector6::repeat(-2.0), Vector6::new(13.0, -0.5, 0.0, 0.1, 0.2, -3.0));
     let values: Vec<_> = times_s.iter().map(|t| start + slope * *t).collect();
-    for pieces in [spline_pieces(&times_s, &values, End::Natural), linear_pieces(&times_s, &values)] {
+    for pieces in [spline_pieces(&times_s, &values, NATURAL, End::Given), linear_pieces(&times_s, &values)] {
         let (mut value, mut rate, mut second) = (0.0f64, 0.0f64, 0.0f64);
         for piece in &pieces {
             let t = piece.start_s + seeded.between(0.0, 0.02);
@@ -87,7 +89,7 @@ fn a_straight_line_stays_straight() {
 fn three_stations_by_hand() {
     // (0, 0), (1, 1), (2, 0): 4 M₁ = 6 (−1 − 1), M₁ = −3, so S = 1.5 t − 0.5 t³ up to t = 1.
     let values = [0.0, 1.0, 0.0].map(Vector6::repeat);
-    let pieces = spline_pieces(&[0.0, 1.0, 2.0], &values, End::Natural);
+    let pieces = spline_pieces(&[0.0, 1.0, 2.0], &values, NATURAL, End::Given);
     assert_eq!(pieces[0].value(0.5), Vector6::repeat(0.6875));
     assert_eq!(pieces[0].rate(0.0), Vector6::repeat(1.5));
     assert_eq!(pieces[1].second_rate(1.0), Vector6::repeat(-3.0));
