@@ -1,5 +1,7 @@
 //! `[path]`: its keys, converted to a [`VehiclePath`].
 
+use std::ops::Range;
+
 use nalgebra::{Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -72,8 +74,8 @@ pub(crate) struct TableSection {
     /// The vehicle point that the table follows, such as the middle of the rear axle: [x, y, z] from the centre of
     /// gravity, forward, right, down; [0, 0, 0] if absent.
     pub(crate) offset: Option<[Length; 3]>,
-    /// Cut-off frequency (3 dB, no phase lag) of a smoothing filter on positions and angles, for tables whose rounding
-    /// would dominate the second derivatives. Not smoothed if absent.
+    /// Cut-off frequency (3 dB, no phase lag) of a smoothing filter on positions or accelerations and on angles, for
+    /// tables whose rounding would dominate the second derivatives. Not smoothed if absent.
     pub(crate) filter: Option<Frequency<POSITIVE>>,
     /// Factor on the linear and angular accelerations of the path. Initial position, angles and rates stay. 1 if
     /// absent.
@@ -182,15 +184,28 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
         let channel = |(i, x): (usize, &f64)| if i < PLACES[1] { x + back * (after[i] - x) } else { 0.0 };
         row.iter().enumerate().map(channel).collect()
     });
-    integrate(&mut table);
-    let mut stations = stations(s, &table.rows);
-    if let Some(filter) = &s.filter {
-        stations = smoothed(&stations, filter.si()).map_err(|found| b.error("path.filter", found, SMOOTHED)).ok()?;
-    }
     let after = s.after.unwrap_or_default();
-    let path = match s.filter.is_some() || !(PLACES[1]..PLACES[1] + 3).any(|i| table.present[i]) {
-        true => TablePath::new(stations, s.interpolation.unwrap_or_default(), after),
-        false => TablePath::with_accelerations_at_ends(stations, ends(s, &table.rows), after),
+    let path = if (PLACES[1]..PLACES[1] + 3).any(|i| table.present[i]) {
+        if let Some(filter) = &s.filter {
+            let channels = PLACES[0] + 3..COLUMNS.len();
+            smooth_columns(&mut table.rows, channels, filter.si())
+                .map_err(|found| b.error("path.filter", found, SMOOTHED))
+                .ok()?;
+        }
+        let [last_m_s, most_m_s] = integrate(&mut table);
+        if after == AfterEnd::Hold && last_m_s > 0.02 * most_m_s {
+            let found = format!("\"hold\" after accelerations that leave the vehicle at {last_m_s:.2} m/s");
+            b.error("path.after", found, "\"coast\", or accelerations that end at rest");
+            return None;
+        }
+        TablePath::with_accelerations_at_ends(stations(s, &table.rows), ends(s, &table.rows), after)
+    } else {
+        let mut stations = stations(s, &table.rows);
+        if let Some(filter) = &s.filter {
+            stations =
+                smoothed(&stations, filter.si()).map_err(|found| b.error("path.filter", found, SMOOTHED)).ok()?;
+        }
+        TablePath::new(stations, s.interpolation.unwrap_or_default(), after)
     };
     let path = match si_or(&s.turn, 0.0) {
         0.0 => path,
@@ -231,8 +246,9 @@ fn check_accelerations(b: &mut Builder, s: &TableSection, table: &NumberTable) -
 
 /// Positions from accelerations that are straight lines between the times:
 /// v′ = v + h (a + a′)/2, x′ = x + h v + h² (2a + a′)/6. A spline through them with the accelerations at its ends has
-/// them everywhere.
-fn integrate(table: &mut NumberTable) {
+/// them everywhere. The speed at the end and the greatest one, m/s.
+fn integrate(table: &mut NumberTable) -> [f64; 2] {
+    let mut speeds_m_s = vec![Vector3::zeros(); table.rows.len()];
     for axis in 0..3 {
         let [place, acceleration] = PLACES.map(|from| from + axis);
         let mut speed_m_s = 0.0;
@@ -241,8 +257,22 @@ fn integrate(table: &mut NumberTable) {
             let h_s = table.rows[i][0] - table.rows[i - 1][0];
             table.rows[i][place] = table.rows[i - 1][place] + h_s * (speed_m_s + h_s * (2.0 * a + next) / 6.0);
             speed_m_s += 0.5 * h_s * (a + next);
+            speeds_m_s[i][axis] = speed_m_s;
         }
     }
+    let speed = |v: &Vector3<f64>| v.norm();
+    [speeds_m_s.last().map_or(0.0, speed), speeds_m_s.iter().map(speed).fold(0.0, f64::max)]
+}
+
+/// Low-pass filters columns of a table at `cutoff_hz`.
+fn smooth_columns(rows: &mut [Vec<f64>], columns: Range<usize>, cutoff_hz: f64) -> Result<(), String> {
+    let time_s: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    for i in columns {
+        let values: Vec<f64> = rows.iter().map(|row| row[i]).collect();
+        let smooth = smooth(&time_s, &values, cutoff_hz).map_err(|error| error.to_string())?;
+        rows.iter_mut().zip(smooth).for_each(|(row, value)| row[i] = value);
+    }
+    Ok(())
 }
 
 const SMOOTHED: &str = "three times or more that increase, and a frequency below half of their rate";

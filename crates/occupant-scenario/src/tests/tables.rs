@@ -89,9 +89,24 @@ fn accelerations_along_the_axes_of_a_sled_are_scaled_and_turned() {
     }
 }
 
+/// A filter acts on the accelerations, so the vehicle still starts from rest; what is held after accelerations that end at rest has them.
+#[test]
+fn accelerations_are_filtered_before_they_are_integrated_and_may_end_at_rest() {
+    let at =
+        |text: &str, time_s: f64| with_csv(text, "").unwrap().path.motion(time_s, time_s, &mut PathCursor::default());
+    let filtered = at(&format!("{ALONG_THE_SLED}\nfilter = \"8 Hz\""), 0.0);
+    assert!(filtered.velocity_m_s.norm() < 1e-12, "{filtered:?}");
+    let held = "kind = \"table\"\nafter = \"hold\"\ncolumns = [\"t[ms]\", \"ax[m/s^2]\"]\n\
+                rows = [[0, 100], [20, 50], [60, -90], [100, 55]]";
+    for (time_s, expected) in [(0.0, 100.0), (0.01, 75.0), (0.05, -55.0), (0.08, -17.5)] {
+        assert_relative_eq!(at(held, time_s).acceleration_m_s2.x, expected, epsilon = 1e-9);
+    }
+}
+
 #[test]
 fn accelerations_that_do_not_go_with_a_table_are_refused() {
     for (from, to, expected) in [
+        ("coast", "hold", "leave the vehicle at 4.09 m/s"),
         ("\"ax[g]\", \"az[g]\"", "\"ax[g]\", \"x[m]\"", "`ax` beside `x`"),
         ("kind", "interpolation = \"linear\"\nkind", "straight lines between positions"),
         ("\"ax[g]\"", "\"ax[m]\"", "ax"),
