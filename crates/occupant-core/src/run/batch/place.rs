@@ -38,8 +38,9 @@ pub(super) struct Place {
     pub looks: bool,
     /// Whether an element has switched by the end of its latest trial.
     pub jumps: bool,
-    /// Where the memory at the start of the latest step may differ from the one last fetched, and that one from the one
-    /// of the latest output.
+    /// With steps of fixed length, where the memory in lanes may differ from the run's. Under error control, where the
+    /// memory at the start of the latest step may differ from the one last fetched, and that one from the one of the latest
+    /// output.
     pub behind: Marks,
     pub unseen: Marks,
 }
@@ -82,6 +83,11 @@ impl Place {
             behind,
             unseen,
         }
+    }
+
+    /// Notes that the memory in lanes may differ from the run's anywhere.
+    pub(super) fn differs_anywhere(&mut self) {
+        self.behind.set_all(self.run.history.memory.contacts.len());
     }
 
     /// First output.
