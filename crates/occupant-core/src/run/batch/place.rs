@@ -43,6 +43,9 @@ pub(super) struct Place {
     /// output.
     pub behind: Marks,
     pub unseen: Marks,
+    /// Under error control, where the memories at the end of the latest step and of the trial may differ from those last
+    /// fetched.
+    pub unread: Marks,
 }
 
 /// Continuation of a run after a step or an output.
@@ -66,7 +69,7 @@ impl Place {
         let (whole, step) = (Step::default(), Step::default());
         let (frames, before) = (Frames::still(run.time_s), (stretch, [whole, step]));
         let (latest, looks, jumps) = (None, false, false);
-        let [behind, unseen] = [run.history.changed().blank(), run.history.changed().blank()];
+        let [behind, unseen, unread] = [(); 3].map(|()| run.history.changed().blank());
         Place {
             frames,
             model,
@@ -82,6 +85,7 @@ impl Place {
             jumps,
             behind,
             unseen,
+            unread,
         }
     }
 
