@@ -64,7 +64,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     }
 
     /// How far the sphere is at least from pair `i` of solids, m, if it is farther than `enough` in all lanes and nothing of the
-    /// pair is remembered: then a commit would change nothing.
+    /// pair is remembered: then there is no force, and a commit would change nothing.
     #[inline(always)]
     pub(super) fn keeps_off(&self, i: usize, enough: S, past: &[PairHistory<S>]) -> Option<S> {
         let solids = &self.contacts.solids;

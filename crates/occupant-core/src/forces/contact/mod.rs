@@ -294,7 +294,10 @@ fn meet_all<S: Scalar, const SOLID: bool>(
     let reach = if let Some(way) = &way { law.reach_of(way, reach) } else { reach };
     let looks = at.accepted && hints.must_look(g, sphere.centre_f, reach);
     // what is not watched stays apart until the next look, what is not near until the next commit
-    let enough = if looks { reach + S::of(LEAST_WAY_M) } else { reach };
+    let mut enough = S::zero();
+    if at.accepted {
+        enough = if looks { reach + S::of(LEAST_WAY_M) } else { reach };
+    }
     let places = if looks {
         group.pairs.clone()
     } else if at.accepted {
@@ -312,10 +315,7 @@ fn meet_all<S: Scalar, const SOLID: bool>(
         } else {
             (hints.near[place].pair as usize, hints.near[place].lanes)
         };
-        if SOLID
-            && at.accepted
-            && let Some(off) = sphere.keeps_off(i, enough, past)
-        {
+        if SOLID && let Some(off) = sphere.keeps_off(i, enough, past) {
             look.pass(off);
             continue;
         }
