@@ -2,8 +2,10 @@
 """Counts instructions (callgrind) and compares them with instructions.toml: of one evaluation, one step, one output, one
 whole run and one sample of a study.
 
-    cargo build --release --package occupant-bench --example count
+    CARGO_INCREMENTAL=0 cargo build --release --package occupant-bench --example count
     python3 crates/occupant-bench/instructions.py target/release/examples/count [--update]
+
+An incremental build inlines other functions, so it counts other instructions.
 
 Only instructions of our own program count: what it calls in the C library (memcpy) picks its code by the processor. The
 count of one call is (that of N2 calls - that of N1)/(N2 - N1). A difference of more than the file's tolerance, up or
@@ -82,7 +84,8 @@ def measure(program):
         except subprocess.CalledProcessError as error:
             if error.returncode != -signal.SIGILL:
                 raise
-            # such as the form of vmovq that stores, between registers
+            # Such as the form of vmovq that stores, between registers. It has four bytes where its source is xmm8 to 15 and
+            # its target is not; the form that valgrind knows has five then, so it cannot be put in its place.
             print(f"{name}: left out, valgrind does not know an instruction in it", file=sys.stderr)
             continue
         print(f"{name:30} {found[name]:10,}", flush=True)

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::car::{self, Usual};
+use super::car::{self, Usual, WrittenOut};
 use super::check::{check_parts, check_words, references, units_of};
 use super::expand::{expand, written_out};
 use super::kind::UnitSystem;
@@ -76,11 +76,12 @@ impl Draft {
     /// All problems of the scenario.
     pub(super) fn into_ready(mut self) -> Result<Ready, Diagnostics> {
         let Document { sources, root, .. } = &self.document;
-        if let Some(ready) = self.ready.as_ref().and_then(|ready| ready.with(sources, root)) {
+        let mut read = self.ready.as_ref().map_or_else(Vec::new, |ready| ready.read.clone());
+        if let Some(ready) = self.ready.as_ref().and_then(|ready| ready.with(sources, root, &mut read)) {
             return Ok(ready);
         }
-        let (whole, problems) = self.checked();
-        if problems.has_errors() { Err(problems) } else { Ready::of(self.document.root, whole) }
+        let (whole, problems) = self.checked(&mut read);
+        if problems.has_errors() { Err(problems) } else { Ready::of(self.document.root, whole, read) }
     }
 
     /// Applies `path.to.key=value` from a command line. The value is read as TOML; anything else is a text, so
@@ -149,11 +150,12 @@ impl Draft {
 
     /// All problems of the scenario in its present state.
     pub fn check(&self) -> Diagnostics {
-        self.clone().checked().1
+        self.clone().checked(&mut Vec::new()).1
     }
 
-    /// The scenario with its car expanded, and all its problems; converts every quantity to SI units.
-    fn checked(&mut self) -> (Document, Diagnostics) {
+    /// The scenario with its car expanded, and all its problems; converts every quantity to SI units. For `read` see
+    /// [`car::whole`].
+    fn checked(&mut self, read: &mut Vec<WrittenOut>) -> (Document, Diagnostics) {
         imply_error_control(&mut self.document.root);
         let written = &mut self.document;
         let mut problems =
@@ -165,7 +167,7 @@ impl Draft {
             return (written.clone(), problems);
         }
         let mut whole = written.clone();
-        whole.root = car::whole(&mut whole.sources, &written.root);
+        whole.root = car::whole(&mut whole.sources, &written.root, read);
         problems.extend(check_words(&mut whole, schema(), "the scenario"));
         if !car::is_there(&written.root) {
             written.root = whole.root.clone();

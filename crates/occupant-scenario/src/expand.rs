@@ -50,7 +50,7 @@ pub(super) fn written(title: &str, text: &str) -> Option<Document> {
 
 /// The explicit form of a scenario tree that has passed the check.
 pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
-    let whole = car::whole(sources, root);
+    let whole = car::whole(sources, root, &mut Vec::new());
     written_out(sources, &whole)
 }
 
@@ -99,7 +99,7 @@ pub(super) fn explicit_joints(
 }
 
 /// Merges the library's entry under a section that refers to it by `library`, and adds its source if none is given.
-fn from_library(sources: &mut Sources, root: &mut Table) {
+pub(super) fn from_library(sources: &mut Sources, root: &mut Table) {
     let Some(library) = presets::library() else { return };
     let mut told = Table::new();
     let mut merge = |entry: &mut Entry, place: &str, from: &[&str]| {

@@ -3,12 +3,13 @@
 
 use std::sync::Arc;
 
-use super::car;
+use super::car::{self, WrittenOut};
 use super::check::check_parts;
-use super::expand::{explicit_joints, written_out};
+use super::expand::{explicit_joints, from_library, written_out};
 use super::living;
+use super::presets;
 use super::sections::{Scenario, schema};
-use placed_text::{Diagnostics, Document, Entry, Node, SourceId, Sources, Table};
+use placed_text::{Diagnostics, Document, Entry, Node, SourceId, Sources, Table, Value};
 use serde::Deserialize;
 
 /// A scenario that has passed the check, and its explicit form.
@@ -22,6 +23,8 @@ pub(crate) struct Ready {
     /// The same with its car expanded.
     whole: Node,
     pub(crate) scenario: Scenario,
+    /// What was read of its car.
+    pub(crate) read: Vec<WrittenOut>,
     /// With presets, pairs, `all` and joint sets expanded.
     pub(crate) explicit_root: Node,
     pub(crate) explicit: Scenario,
@@ -35,24 +38,25 @@ impl Ready {
     ///
     /// # Errors
     /// A difference between check and sections.
-    pub(crate) fn of(root: Node, mut document: Document) -> Result<Ready, Diagnostics> {
+    pub(crate) fn of(root: Node, mut document: Document, read: Vec<WrittenOut>) -> Result<Ready, Diagnostics> {
         let scenario: Scenario = document.sections("scenario")?;
         let whole = document.root.clone();
         document.root = written_out(&mut document.sources, &whole);
         let explicit = complete(document.sections("scenario")?);
         let Document { sources, main, root: explicit_root } = document;
-        Ok(Ready { sources, main, root, whole, scenario, explicit_root, explicit })
+        Ok(Ready { sources, main, root, whole, scenario, read, explicit_root, explicit })
     }
 
-    /// The same with another tree, if it differs only in valid values of independent sections; otherwise none.
-    pub(crate) fn with(&self, sources: &Sources, root: &Node) -> Option<Ready> {
+    /// The same with another tree, if it differs only in valid values of independent sections; otherwise none. For `read` see
+    /// [`car::whole`].
+    pub(crate) fn with(&self, sources: &Sources, root: &Node, read: &mut Vec<WrittenOut>) -> Option<Ready> {
         let mut document = Document { sources: sources.clone(), main: self.main, root: root.clone() };
         let has_car = car::is_there(root);
         if has_car && (!check_parts(&mut document, schema(), &car::CAR).is_empty() || !car::check(&document).is_empty())
         {
             return None;
         }
-        document.root = car::whole(&mut document.sources, &document.root);
+        document.root = car::whole(&mut document.sources, &document.root, read);
         let unchecked = document.root.clone();
         let changed = self.changed(&unchecked, has_car)?;
         if !check_parts(&mut document, schema(), &changed).is_empty() {
@@ -63,7 +67,7 @@ impl Ready {
             Some(((*key).to_owned(), table.get(*key)?.clone()))
         }));
         let whole = document.root.clone();
-        document.root = Node::new(whole.span, placed_text::Value::Table(Arc::new(part)));
+        document.root = Node::new(whole.span, Value::Table(Arc::new(part)));
         let part: Scenario = document.sections("scenario").ok()?;
         let root = if has_car { root.clone() } else { whole.clone() };
         let Ready { main, scenario, explicit_root, explicit, .. } = self;
@@ -73,16 +77,19 @@ impl Ready {
             root,
             whole,
             scenario: scenario.clone(),
+            read: Vec::new(),
             explicit_root: explicit_root.clone(),
             explicit: explicit.clone(),
         };
         for key in changed {
             ready.scenario.take(key, &part)?;
-            let entry = if key == "joints" {
-                ready.write_out_joints()?
-            } else {
-                ready.explicit.take(key, &part)?;
-                ready.whole.as_table()?.get(key)?.clone()
+            let entry = match key {
+                "joints" => ready.write_out_joints()?,
+                key if presets::IN_LIBRARY.contains(&key) => ready.merge_library(key)?,
+                key => {
+                    ready.explicit.take(key, &part)?;
+                    ready.whole.as_table()?.get(key)?.clone()
+                }
             };
             ready.explicit_root.as_table_mut()?.insert(key.to_owned(), entry);
         }
@@ -102,11 +109,16 @@ impl Ready {
         let is_living = living::any(&self.root);
         let refer =
             |key: &str| [old, new].into_iter().filter_map(|root| root.get(key)).any(|entry| refers(&entry.node));
+        let names_same = |key: &str| {
+            let [old, new] = [old, new].map(|root| root.get(key).map(|entry| in_library(&entry.node)));
+            old == new
+        };
         // a preset of joints may change the body, and bring muscles
         let preset = |of: &Table| of.get("joints")?.node.get("preset").map(|preset| preset.value.clone());
         let stands_alone = |key: &&str| match *key {
             "joints" => !is_living && preset(old) == preset(new),
             "muscles" | "triggers" => !is_living && !refer(key),
+            key if presets::IN_LIBRARY.contains(&key) => names_same(key),
             key => !OTHERS.contains(&key) && !refer(key),
         };
         changed.iter().all(stands_alone).then_some(changed)
@@ -120,6 +132,19 @@ impl Ready {
         Some(entry)
     }
 
+    /// Merges the library's entries anew under those of a section that refer to it, to the same as before.
+    fn merge_library(&mut self, key: &str) -> Option<Entry> {
+        let whole = self.whole.as_table()?;
+        let needed = ["title", "time", key].into_iter();
+        let mut own: Table = needed.filter_map(|key| Some((key.to_owned(), whole.get(key)?.clone()))).collect();
+        from_library(&mut self.sources, &mut own);
+        own.shift_remove("provenance");
+        let entry = own.get(key)?.clone();
+        let root = Node::new(entry.node.span, Value::Table(Arc::new(own)));
+        self.explicit.take(key, &Deserialize::deserialize(&root).ok()?)?;
+        Some(entry)
+    }
+
     /// The tree of the explicit form.
     pub(crate) fn document(&self) -> Document {
         Document { sources: self.sources.clone(), main: self.main, root: self.explicit_root.clone() }
@@ -129,9 +154,15 @@ impl Ready {
 /// Whether two trees are one and the same, or a plain value twice.
 pub(super) fn shares(a: &Node, b: &Node) -> bool {
     match (&a.value, &b.value) {
-        (placed_text::Value::Table(one), placed_text::Value::Table(other)) => Arc::ptr_eq(one, other),
+        (Value::Table(one), Value::Table(other)) => Arc::ptr_eq(one, other),
         _ => a == b,
     }
+}
+
+/// To what in the library the entries of a section refer.
+fn in_library(section: &Node) -> Vec<(&str, Option<&Value>)> {
+    let entries = section.as_table().into_iter().flatten();
+    entries.map(|(name, entry)| (name.as_str(), entry.node.get("library").map(|named| &named.value))).collect()
 }
 
 /// Whether a section or a table in it refers to the library.

@@ -114,7 +114,11 @@ impl Signals {
     pub(super) fn every_other(&self, first: usize) -> Signals {
         let mut half = self.clone();
         half.interval_s *= 2.0;
-        let thin = |values: &mut Vec<f64>| *values = values.iter().skip(first).step_by(2).copied().collect();
+        let thin = |values: &mut Vec<f64>| {
+            let count = values.len().saturating_sub(first).div_ceil(2);
+            (0..count).for_each(|i| values[i] = values[first + 2 * i]);
+            values.truncate(count);
+        };
         half.special.values_mut().for_each(thin);
         half.all_mut().for_each(thin);
         half

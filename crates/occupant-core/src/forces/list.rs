@@ -631,18 +631,14 @@ impl History<f64> {
     /// Stores `memory`, of a later position; pairs that have no mark are equal. Pairs far from contact stay skipped in groups
     /// in which no contact has begun or ended meanwhile.
     pub(crate) fn remember(&mut self, memory: &Memory<f64>, marks: &Marks) {
-        for pair in marks.iter() {
-            if self.memory.contacts[pair].phase != memory.contacts[pair].phase {
-                self.hints.contacts.look_again_at(pair);
-            }
-        }
+        self.look_again_where(marks, |pair| memory.contacts[pair].phase);
         self.memory.take_over_marked(memory, marks);
     }
 
-    /// Makes the next commit visit the groups of pairs whose phase is another at a later position.
-    pub(crate) fn look_again_where(&mut self, phase: impl Fn(usize) -> f64) {
-        for (pair, own) in self.memory.contacts.iter().enumerate() {
-            if own.phase != phase(pair) {
+    /// Makes the next commit visit the groups of marked pairs whose phase is another at a later position.
+    pub(crate) fn look_again_where(&mut self, marks: &Marks, phase: impl Fn(usize) -> f64) {
+        for pair in marks.iter() {
+            if self.memory.contacts[pair].phase != phase(pair) {
                 self.hints.contacts.look_again_at(pair);
             }
         }

@@ -26,6 +26,9 @@ pub(crate) const SIGNALS: usize = PLACE;
 /// Signals for rear impact: of T1, of the head restraint, of the head's speed and of the pelvis' position.
 pub(crate) const REAR_SIGNALS: usize = 4;
 
+/// Numbers of samples that are kept until they are sorted by signal: by hundreds at once that costs a fraction.
+const BLOCK: usize = 1 << 15;
+
 /// Instrument readings of a run since its last output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fine {
@@ -161,13 +164,24 @@ impl Fine {
         self.samples.clear();
     }
 
-    /// Copies `other`, of the same run, without allocation if the space suffices.
-    pub(crate) fn take_over(&mut self, other: &Fine) {
+    /// Continues with the samples of `other`, of the same run, without allocation if the space suffices.
+    pub(crate) fn go_on_with(&mut self, other: &Fine) {
         (self.interval_s, self.next, self.before_s) = (other.interval_s, other.next, other.before_s);
         (self.each, self.legs) = (other.each, other.legs);
         self.before.clone_from(&other.before);
         self.now.clone_from(&other.now);
-        self.samples.clone_from(&other.samples);
+        self.samples.extend_from_slice(&other.samples);
+    }
+
+    /// Makes room for the samples of several outputs.
+    pub(crate) fn with_room(mut self) -> Self {
+        self.samples.reserve(BLOCK + self.samples.capacity());
+        self
+    }
+
+    /// Whether there are samples enough to be taken.
+    pub(crate) fn is_full(&self) -> bool {
+        self.samples.len() >= BLOCK
     }
 
     /// Takes an output as a step, for a run whose steps were not read.
@@ -207,7 +221,7 @@ impl Fine {
         self.samples.len() / (self.each * self.bodies.len())
     }
 
-    /// Adds number `at` of each sample since the last output to `values`, of a body among those read.
+    /// Adds number `at` of each sample since they were last cleared to `values`, of a body among those read.
     pub(crate) fn push_column(&self, place: usize, at: usize, values: &mut Vec<f64>) {
         let mut next = self.each * place + at;
         // no iterator: each asks for its length, a division

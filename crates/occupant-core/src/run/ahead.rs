@@ -110,6 +110,11 @@ impl<L: Lanes> Ahead<L> {
         &self.moved
     }
 
+    /// Where the memory of the latest commit of a trial or a look may differ from that at the end of the latest step.
+    pub(crate) fn stale(&self) -> &Marks {
+        &self.stale
+    }
+
     /// Stops all motion in lane `i`.
     pub(crate) fn rest(&mut self, i: usize) {
         for rate in &mut self.rates {

@@ -91,6 +91,8 @@ pub(super) struct Seen {
     surfaces: usize,
     /// By sphere and surface.
     known: Vec<bool>,
+    /// By pair: the part noted last, counted from 1.
+    noted: Vec<usize>,
     pub touches: Vec<FirstTouch>,
     pub peaks: Peaks,
     pub fine: Fine,
@@ -131,7 +133,8 @@ impl Seen {
         let (known, touches) = (vec![false; combinations], Vec::with_capacity(combinations));
         let (look, peaks) = (Look::new(model), none_of(model));
         let (changes, bars) = (Changes::new(model), Bars::new(model));
-        Seen { surfaces, known, touches, peaks, fine: Fine::new(model), changes, bars, look }
+        let noted = vec![0; model.start().history.memory.contacts.len()];
+        Seen { surfaces, known, noted, touches, peaks, fine: Fine::new(model), changes, bars, look }
     }
 
     /// Takes the record of an earlier part of the run of the same model.
@@ -200,6 +203,9 @@ impl Seen {
     /// Notes a contact of `model`, for which this was made.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
+        if std::mem::replace(&mut self.noted[meeting.pair], meeting.part + 1) == meeting.part + 1 {
+            return;
+        }
         let surface = model.system().forces.contacts.surface(meeting.pair, meeting.part);
         let sphere = meeting.sphere;
         let known = &mut self.known[sphere * self.surfaces + surface];

@@ -21,7 +21,7 @@ use crate::sections::{BodySection, CAR_TITLE, CarClass, CarSeatSection, CarSecti
 use classes::Measures;
 pub(super) use dimensions::dimensions;
 pub use dimensions::{Dimension, Size};
-use placed_text::{Diagnostics, Document, Node, Problem, Sources, Table, did_you_mean, one_of, with_key};
+use placed_text::{Diagnostics, Document, Node, Problem, SourceId, Sources, Table, did_you_mean, one_of, with_key};
 pub use usual::Usual;
 pub(super) use usual::usual;
 use years::Years;
@@ -112,22 +112,35 @@ fn bounded(document: &Document, node: Option<&Node>, path: &str, problems: &mut 
     }
 }
 
-/// The scenario with its car expanded; unchanged if it has none, or an invalid one.
-pub(super) fn whole(sources: &mut Sources, root: &Node) -> Node {
+/// A text of cars or dummies written out: where it stands among the sources, and its tree there.
+#[derive(Clone, Debug)]
+pub(super) struct WrittenOut {
+    id: SourceId,
+    root: Node,
+}
+
+/// The scenario with its car expanded; unchanged if it has none, or an invalid one. Texts that were `read` before into the
+/// same sources are not read again; others are added to the list.
+pub(super) fn whole(sources: &mut Sources, root: &Node, read: &mut Vec<WrittenOut>) -> Node {
     if !is_there(root) {
         return root.clone();
     }
-    let mut read = Document { sources: sources.clone(), main: root.span.source, root: root.clone() };
-    if check_parts(&mut read, schema(), &CAR).has_errors() {
+    let mut said = Document { sources: sources.clone(), main: root.span.source, root: root.clone() };
+    if check_parts(&mut said, schema(), &CAR).has_errors() {
         return root.clone();
     }
     // for their quantities: what they lack the car gives them
-    check_parts(&mut read, schema(), &BODIES);
-    let texts = [("dummy", dummies::words(&read.root)), (CAR_TITLE, words(&read.root).unwrap_or_default())];
+    check_parts(&mut said, schema(), &BODIES);
+    let texts = [("dummy", dummies::words(&said.root)), (CAR_TITLE, words(&said.root).unwrap_or_default())];
     texts.iter().filter(|(_, text)| !text.is_empty()).fold(root.clone(), |root, (title, text)| {
+        if let Some(known) = read.iter().find(|known| sources.text(known.id) == *text) {
+            return over(known.root.clone(), &root);
+        }
         let Some(document) = written(title, text) else { return root };
         let id = sources.add(*title, document.shared());
-        over(document.root.moved_to(id), &root)
+        let own = document.root.moved_to(id);
+        read.push(WrittenOut { id, root: own.clone() });
+        over(own, &root)
     })
 }
 

@@ -4,6 +4,7 @@ use super::super::{Draft, Format};
 use super::no_files;
 
 const DRIVER: &str = include_str!("../../testdata/hand/three-point.toml");
+const IN_A_CAR: &str = include_str!("../../../../scenarios/three-point.toml");
 const CART: &str = include_str!("../../../../scenarios/cart-lap-torso.toml");
 
 /// Plain data and warnings, or problems, as texts to the bit.
@@ -29,7 +30,7 @@ fn outcome(mut draft: Draft, changes: &[&str]) -> String {
 #[test]
 fn samples_of_a_prepared_scenario_are_those_of_the_text() {
     // values of plain sections; sections that others hang on; keys that come and go; what is wrong
-    let changes: [&[&str]; 28] = [
+    let changes: [&[&str]; 31] = [
         &[],
         &["time.end=\"1 ms\""],
         &["materials.seat.k1=3e4", "materials.seat.friction=0.3"],
@@ -41,6 +42,9 @@ fn samples_of_a_prepared_scenario_are_those_of_the_text() {
         &["materials.foam={ library = \"seat_cushion\" }"],
         &["body.segments.head.mass=\"5 kg\""],
         &["body={ sex = \"female\", stature = \"1.6 m\", mass = \"60 kg\" }"],
+        &["materials.*.k1=\"13 kN/m\""],
+        &["car.seats.driver.limiter=\"5 kN\""],
+        &["car.seats.driver.limiter=\"5 kN\"", "joints.*.damping=2"],
         &["joints.*.damping=2"],
         &["joints.neck.damping=3", "materials.seat.k1=3e4"],
         &["joints.all.damping=\"5 N m s/rad\""],
@@ -59,7 +63,7 @@ fn samples_of_a_prepared_scenario_are_those_of_the_text() {
         &["path=3"],
         &["belts.*.slack=0.001", "surfaces.*.material=\"nothing\""],
     ];
-    for text in [DRIVER, CART] {
+    for text in [DRIVER, IN_A_CAR, CART] {
         let plain = Draft::read(text, Format::Toml, "base.toml").unwrap();
         let prepared = plain.clone().prepared();
         for change in changes {

@@ -7,7 +7,6 @@
 //! its radius per step, so that it does not jump past the axis of a bar. Slower spheres are not checked: they cost
 //! nothing, and their steps are those of the integrator.
 
-use super::encounter::Sphere;
 use super::hints::Near;
 use super::{ContactHints, ContactSystem, FASTEST_M_S, Group, PASSED, PairHistory, weight};
 use crate::forces::element::Instant;
@@ -28,6 +27,11 @@ const GRAZES: f64 = 0.02;
 const MOST_LEAPS: usize = 60;
 /// Relative speeds are looked for above this, m/s: with the sum of two such and their turning nothing reaches [`FASTEST_M_S`].
 const FAST_M_S: f64 = 40.0;
+
+/// What a step may add to the speed of a sphere relative to a frame: by this factor, and by this much, m/s. It is 4000 g over half a
+/// millisecond.
+const FASTER: f64 = 1.5;
+const FASTER_M_S: f64 = 20.0;
 
 /// A centre that goes straight on.
 #[derive(Clone, Copy)]
@@ -115,28 +119,31 @@ impl<S: Scalar> ContactSystem<S> {
         self.reach_of_a_step.max(speed * self.longest_step())
     }
 
+    /// How far a sphere on its way may come in a step, m: at most `reach`, which holds for all spheres.
+    #[inline(always)]
+    pub(super) fn reach_of(&self, way: &Way<S>, reach: S) -> S {
+        let own = (way.speed * S::of(FASTER) + S::of(FASTER_M_S)) * self.longest_step();
+        S::select(self.reach_of_a_step.lt(reach), reach, own.min(reach))
+    }
+
     /// Bounds the pace for the near pairs of a group, number `g`.
     #[inline(always)]
     pub(super) fn look_ahead<const SOLID: bool>(
         &self,
         (g, group): (usize, &Group),
-        sphere: &Sphere<'_, S>,
+        way: &Way<S>,
         past: &mut [PairHistory<S>],
         hints: &mut ContactHints<S>,
     ) {
         let near = hints.near_of(g, group);
-        if near.is_empty() {
-            return;
-        }
-        let way = sphere.way(self.longest_step());
-        if !S::any(way.is_fast()) {
+        if near.is_empty() || !S::any(way.is_fast()) {
             return;
         }
         let near = &hints.near[near];
         if S::IS_WIDE {
-            self.within::<SOLID>(near, &way, past, &mut hints.pace);
+            self.within::<SOLID>(near, way, past, &mut hints.pace);
         } else {
-            self.apart::<SOLID>(near, &way, past, &mut hints.pace);
+            self.apart::<SOLID>(near, way, past, &mut hints.pace);
         }
     }
 

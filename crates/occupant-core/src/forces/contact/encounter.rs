@@ -63,6 +63,19 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         Sphere { contacts, group, site, frame, k, arm, centre, centre_f, accepted: at.accepted, load: None }
     }
 
+    /// How far the sphere is at least from pair `i` of solids, m, if it is farther than `enough` in all lanes and nothing of the
+    /// pair is remembered: then there is no force, and a commit would change nothing.
+    #[inline(always)]
+    pub(super) fn keeps_off(&self, i: usize, enough: S, past: &[PairHistory<S>]) -> Option<S> {
+        let solids = &self.contacts.solids;
+        let j = i - self.contacts.pairs.len();
+        let off = solids.at_least(j, self.centre_f, self.site.radius);
+        if S::any(!enough.lt(off)) || S::any(!solids.laws[j].stays(&past[i]) | solids.remember(j, past)) {
+            return None;
+        }
+        Some(off)
+    }
+
     /// Adds the forces of pair `i`, of faces or of solids, in the lanes of `near`; returns the deformation. At an
     /// accepted step the pair's history first takes over the present position.
     #[inline(always)]

@@ -31,7 +31,7 @@ pub struct ContactHints<S: Scalar> {
     /// By group of pairs.
     looks: Vec<Look<S>>,
     pub(super) own: OwnHints<S>,
-    /// How far a sphere may come in the longest step from the latest commit, m.
+    /// How far any sphere may come in the longest step from the latest commit, m.
     pub(super) reach: S,
     /// How long the step may be that begins at the latest commit.
     pub(in crate::forces) pace: Pace<S>,
@@ -119,8 +119,10 @@ pub(super) struct Look<S> {
     near: usize,
     /// Where the sphere was, axes of the frame, m.
     centre: V3<S>,
-    /// Square of the way that the sphere may go before the next look, m²; negative if there must be one.
-    reach_squared: S,
+    /// How far the nearest pair that is not watched was at least, m; negative if there must be a look.
+    least: S,
+    /// How far the sphere may come in the longest step from the latest commit, m.
+    reach: S,
 }
 
 impl<S: Scalar> ContactHints<S> {
@@ -132,7 +134,8 @@ impl<S: Scalar> ContactHints<S> {
             watched: group.pairs.len(),
             near: group.pairs.len(),
             centre: V3::zero(),
-            reach_squared: -S::one(),
+            least: -S::one(),
+            reach: S::zero(),
         });
         ContactHints {
             watched: all.clone().collect(),
@@ -164,7 +167,7 @@ impl<S: Scalar> ContactHints<S> {
     #[inline(always)]
     pub(super) fn may_touch(&self, g: usize, group: &Group, i: usize) -> bool {
         let near = &self.near[self.near_of(g, group)];
-        near.iter().any(|near| near.pair as usize == i) || S::any(self.looks[g].reach_squared.lt(S::zero()))
+        near.iter().any(|near| near.pair as usize == i) || S::any(self.looks[g].least.lt(S::zero()))
     }
 
     /// Makes the next commit look at all pairs of the group of pair `i`. Nothing is skipped of what is numbered behind them.
@@ -173,7 +176,7 @@ impl<S: Scalar> ContactHints<S> {
         self.pace = Pace::any();
         if i < self.watched.len() {
             let g = self.looks.partition_point(|look| look.first <= i) - 1;
-            self.looks[g].reach_squared = -S::one();
+            self.looks[g].least = -S::one();
         }
     }
 
@@ -186,12 +189,12 @@ impl<S: Scalar> ContactHints<S> {
         self.looks[g].near
     }
 
-    /// True if the sphere may have come near pairs of group `g` that are not watched.
+    /// True if the sphere may come within `reach` of pairs of group `g` that are not watched.
     #[inline(always)]
-    pub(super) fn must_look(&self, g: usize, centre: V3<S>) -> bool {
+    pub(super) fn must_look(&self, g: usize, centre: V3<S>, reach: S) -> bool {
         let look = &self.looks[g];
-        let way = (centre - look.centre).norm_squared();
-        S::any(!way.lt(look.reach_squared))
+        let way = (look.least - reach).max(S::zero());
+        S::any(!(centre - look.centre).norm_squared().lt(way * way))
     }
 }
 
@@ -210,7 +213,7 @@ impl<S: Scalar> Hints<S> for ContactHints<S> {
 
     fn look_again(&mut self, lanes: S::Mask) {
         for look in &mut self.looks {
-            look.reach_squared = S::select(lanes, -S::one(), look.reach_squared);
+            look.least = S::select(lanes, -S::one(), look.least);
         }
         self.pace = Pace::select(lanes, Pace::any(), self.pace);
     }
@@ -223,7 +226,8 @@ impl<S: Scalar> Hints<S> for ContactHints<S> {
             look.watched = spare.join(&mut watched[first..], look.watched, &other.watched[first..][..others.watched]);
             look.near = spare.blend(&mut near[first..], look.near, &other.near[first..][..others.near], lanes);
             look.centre = V3::select(lanes, others.centre, look.centre);
-            look.reach_squared = S::select(lanes, others.reach_squared, look.reach_squared);
+            look.least = S::select(lanes, others.least, look.least);
+            look.reach = S::select(lanes, others.reach, look.reach);
         }
         own.count = spare.blend(&mut own.near, own.count, &other.own.near[..other.own.count], lanes);
         *reach = S::select(lanes, other.reach, *reach);
@@ -232,7 +236,6 @@ impl<S: Scalar> Hints<S> for ContactHints<S> {
 
     #[inline(always)]
     fn take_over_for(&mut self, other: &Self, share: S) {
-        let reach = other.reach * share;
         for (own, look) in self.looks.iter_mut().zip(&other.looks) {
             *own = *look;
             // mostly a few, for which a loop is quicker than a call
@@ -240,8 +243,9 @@ impl<S: Scalar> Hints<S> for ContactHints<S> {
                 self.watched[place] = other.watched[place];
             }
             let near = &other.near[look.first..look.first + look.near];
-            own.near = Near::within(&mut self.near[look.first..], near, reach);
+            own.near = Near::within(&mut self.near[look.first..], near, look.reach * share);
         }
+        let reach = other.reach * share;
         self.own.count = Near::within(&mut self.own.near, &other.own.near[..other.own.count], reach);
         self.reach = other.reach;
         self.pace = other.pace;
@@ -324,10 +328,10 @@ impl Nearing {
         }
     }
 
-    /// Stores the near pairs of group `g`.
+    /// Stores the near pairs of group `g`, whose sphere comes within `reach` in the longest step.
     #[inline(always)]
-    pub(super) fn end<S: Scalar>(self, g: usize, hints: &mut ContactHints<S>) {
-        hints.looks[g].near = self.count;
+    pub(super) fn end<S: Scalar>(self, g: usize, reach: S, hints: &mut ContactHints<S>) {
+        (hints.looks[g].near, hints.looks[g].reach) = (self.count, reach);
     }
 }
 
@@ -362,17 +366,22 @@ impl<S: Scalar> Looking<S> {
             hints.watched[self.first + self.count] = i as u32;
             self.count += 1;
         } else {
-            self.least = self.least.min(off);
+            self.pass(off);
         }
     }
 
-    /// Stores the look at group `g` from `centre`, of spheres that go no farther than `reach` before it counts.
+    /// Does not watch a pair, to which nothing happens on the way `off`.
     #[inline(always)]
-    pub(super) fn end(self, g: usize, centre: V3<S>, reach: S, hints: &mut ContactHints<S>) {
-        let way = (self.least - reach - S::of(MARGIN_M)).max(S::zero());
+    pub(super) fn pass(&mut self, off: S) {
+        self.least = self.least.min(off);
+    }
+
+    /// Stores the look at group `g` from `centre`.
+    #[inline(always)]
+    pub(super) fn end(self, g: usize, centre: V3<S>, hints: &mut ContactHints<S>) {
         let look = &mut hints.looks[g];
         look.watched = self.count;
         look.centre = centre;
-        look.reach_squared = way * way;
+        look.least = (self.least - S::of(MARGIN_M)).max(S::zero());
     }
 }

@@ -39,7 +39,7 @@ use crate::motion::frame::MOST_FRAMES;
 use crate::motion::scalar::Scalar;
 use crate::quantity::energy;
 use encounter::{Aside, Sphere};
-use hints::{Looking, Nearing};
+use hints::{LEAST_WAY_M, Looking, Nearing};
 use placed_text::Problems;
 use self_contact::SelfContact;
 use solid::{Member, lever};
@@ -290,8 +290,14 @@ fn meet_all<S: Scalar, const SOLID: bool>(
     }
     let mut sphere = Sphere::new(law, group, at);
     let power = load.power_at(at.spheres[group.sphere].segment);
-    let is_fast = || S::any(law.reach_of_a_step.lt(reach));
-    let looks = at.accepted && (hints.must_look(g, sphere.centre_f) || is_fast());
+    let way = if at.accepted { Some(sphere.way(law.longest_step())) } else { None };
+    let reach = if let Some(way) = &way { law.reach_of(way, reach) } else { reach };
+    let looks = at.accepted && hints.must_look(g, sphere.centre_f, reach);
+    // what is not watched stays apart until the next look, what is not near until the next commit
+    let mut enough = S::zero();
+    if at.accepted {
+        enough = if looks { reach + S::of(LEAST_WAY_M) } else { reach };
+    }
     let places = if looks {
         group.pairs.clone()
     } else if at.accepted {
@@ -309,6 +315,10 @@ fn meet_all<S: Scalar, const SOLID: bool>(
         } else {
             (hints.near[place].pair as usize, hints.near[place].lanes)
         };
+        if SOLID && let Some(off) = sphere.keeps_off(i, enough, past) {
+            look.pass(off);
+            continue;
+        }
         let depth = sphere.look_at::<SOLID>(i, lanes, past, power, show);
         if at.accepted {
             law.mark::<SOLID>(i, &mut hints.changed);
@@ -321,11 +331,11 @@ fn meet_all<S: Scalar, const SOLID: bool>(
         }
     }
     if looks {
-        look.end(g, sphere.centre_f, reach, hints);
+        look.end(g, sphere.centre_f, hints);
     }
-    if at.accepted {
-        near.end(g, hints);
-        law.look_ahead::<SOLID>((g, group), &sphere, past, hints);
+    if let Some(way) = way {
+        near.end(g, reach, hints);
+        law.look_ahead::<SOLID>((g, group), &way, past, hints);
     }
     sphere.load(load);
 }

@@ -26,13 +26,13 @@ impl ContactSystem<f64> {
         let mut looks = 0;
         for (g, group) in self.groups.iter().chain(&self.solids.groups).enumerate() {
             let (centre, radius) = (at.centre_in(group.sphere, group.by, group.frame), at.spheres[group.sphere].radius);
-            if hints.must_look(g, centre) {
+            if hints.must_look(g, centre, 0.0) {
                 let mut look = Looking::new(group);
                 for i in group.pairs.clone() {
                     let off = self.begin_pair(i, radius, centre, past);
                     look.watch(i, off < LEAST_WAY_M, off, hints);
                 }
-                look.end(g, centre, 0.0, hints);
+                look.end(g, centre, hints);
             } else {
                 for place in hints.watched_of(g, group) {
                     self.begin_pair(hints.watched[place] as usize, radius, centre, past);

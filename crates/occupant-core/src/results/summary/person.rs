@@ -69,33 +69,34 @@ impl Watched {
         }
     }
 
-    /// Results; `fine` contains the readings not yet taken, `are_of_steps`: whether peaks are those of steps.
-    pub(super) fn person(
-        &self,
-        place: usize,
-        options: &Options,
-        fine: &Fine,
-        peaks: &Peaks,
-        are_of_steps: bool,
-    ) -> (Person, Signals) {
-        let mut whole = self.clone();
-        whole.take(place, fine);
-        if !whole.signals.is_empty() {
+    /// Ends the signals, after all readings were taken; `are_of_steps`: whether peaks are those of steps.
+    pub(super) fn complete(&mut self, peaks: &Peaks, are_of_steps: bool) {
+        if !self.signals.is_empty() {
             // the file of an older program lacks some
-            whole.signals.special.retain(|_, values| !values.is_empty());
+            self.signals.special.retain(|_, values| !values.is_empty());
         }
+        let own = self.own(peaks);
+        self.signals.peaks =
+            are_of_steps.then(|| std::array::from_fn(|i| Extreme { value: own[i].value, time_s: own[i].time_s }));
+    }
+
+    /// Largest values of its readings.
+    fn own(&self, peaks: &Peaks) -> [Peak; FELT] {
         let mut own = peaks.felt.get(self.of).copied().unwrap_or([Peak::NONE; FELT]);
         (0..3).filter(|i| !self.has[*i]).for_each(|i| own[i] = Peak::NONE);
-        whole.signals.peaks =
-            are_of_steps.then(|| std::array::from_fn(|i| Extreme { value: own[i].value, time_s: own[i].time_s }));
+        own
+    }
+
+    /// Results of a run that has ended.
+    pub(super) fn person(&self, options: &Options, peaks: &Peaks) -> Person {
+        let own = self.own(peaks);
         let options = self.options(options);
-        let readings = Readings::new(&whole.signals, &options);
+        let readings = Readings::new(&self.signals, &options);
         let parts = [&readings.head, &readings.chest, &readings.pelvis];
         let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, own[i], parts[i]));
         let accelerations = Accelerations { head, chest, pelvis };
         let (dummy, measures) = (options.dummy.name(), readings.measures());
-        let person = Person { accelerations, head_excursion: self.excursion(&own), dummy, measures };
-        (person, whole.signals)
+        Person { accelerations, head_excursion: self.excursion(&own), dummy, measures }
     }
 
     /// Settings for this body: those of a dummy for the side if its ribs yield to the side.

@@ -45,7 +45,7 @@ pub struct Summarizer {
     now: Peaks,
     /// Whether they are those of steps.
     are_of_steps: bool,
-    /// Readings since the latest output, its time and its readings.
+    /// Readings not yet sorted by signal; time and readings of the latest output.
     fine: Fine,
     latest_s: f64,
     latest: Vec<Reading<f64>>,
@@ -78,7 +78,7 @@ struct Case {
 
 impl Case {
     /// Caveats of bodies that are not at rest at the start, with the results of the affected time.
-    fn caveats_of_start(&self, people: &[(&'static str, Person, Signals)], touched: &[SpherePeak]) -> Vec<Caveat> {
+    fn caveats_of_start(&self, people: &[(&'static str, Person, &Signals)], touched: &[SpherePeak]) -> Vec<Caveat> {
         let is_early = |time_s: f64| time_s < self.time.start_s + Settled::FADES_S;
         let one = |(name, left): &(&'static str, Settled)| {
             let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
@@ -110,8 +110,7 @@ impl Summarizer {
     pub fn summary(&self, wall_time_s: Option<f64>) -> Option<Summary> {
         let (outcome, case) = (self.outcome.as_ref()?, self.case.as_ref()?);
         let time = &case.time;
-        let mut peaks = self.seen.clone();
-        peaks.merge(&self.now);
+        let peaks = self.peaks();
         let people = self.persons(&peaks);
         let signs = self.signs.with_steps(&self.elements, &peaks, &case.body);
         let caveats = self.caveats(case, &signs, &people, outcome.time_s);
@@ -171,18 +170,16 @@ impl Summarizer {
         Some(summary.ended(status, reason))
     }
 
+    /// Largest values of the whole run.
+    fn peaks(&self) -> Peaks {
+        let mut peaks = self.seen.clone();
+        peaks.merge(&self.now);
+        peaks
+    }
+
     /// All bodies with results, with the signals of their measures.
-    fn persons(&self, peaks: &Peaks) -> Vec<(&'static str, Person, Signals)> {
-        let mut fine = self.fine.clone();
-        if self.are_of_steps {
-            // up to the end of the run, which may lie within a step
-            fine.see(self.latest_s, &self.latest, &[]);
-        }
-        let one = |(place, one): (usize, &Watched)| {
-            let (person, signals) = one.person(place, &self.options, &fine, peaks, self.are_of_steps);
-            (one.name, person, signals)
-        };
-        self.people.iter().enumerate().map(one).collect()
+    fn persons(&self, peaks: &Peaks) -> Vec<(&'static str, Person, &Signals)> {
+        self.people.iter().map(|one| (one.name, one.person(&self.options, peaks), &one.signals)).collect()
     }
 
     /// Ejections by body.
@@ -193,7 +190,7 @@ impl Summarizer {
 
     /// Caveats of ejected bodies: on their verdict, throw, and results of later times.
     fn by_chance(
-        people: &[(&'static str, Person, Signals)],
+        people: &[(&'static str, Person, &Signals)],
         ejections: &InOrder<&'static str, Ejection>,
     ) -> Vec<Caveat> {
         let one = |(name, ejection): (&&'static str, &Ejection)| {
@@ -223,7 +220,7 @@ impl Summarizer {
         &self,
         case: &Case,
         signs: &Signs,
-        people: &[(&'static str, Person, Signals)],
+        people: &[(&'static str, Person, &Signals)],
         reached_s: f64,
     ) -> Vec<Caveat> {
         let mut caveats = signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
@@ -251,17 +248,26 @@ impl Summarizer {
         self.now.take_over(sample.now);
         if self.are_of_steps {
             self.seen.take_over(sample.step_peaks);
-            self.fine.take_over(sample.fine);
+            self.fine.go_on_with(sample.fine);
         } else {
             self.seen.merge(sample.now);
             self.fine.see_output(sample);
         }
+        if self.fine.is_full() {
+            self.take_readings();
+        }
+        self.latest_s = sample.time_s;
+        self.latest.clone_from_slice(sample.readings);
+    }
+}
+
+impl Summarizer {
+    /// Sorts the readings by signal.
+    fn take_readings(&mut self) {
         for (place, one) in self.people.iter_mut().enumerate() {
             one.take(place, &self.fine);
         }
         self.fine.clear();
-        self.latest_s = sample.time_s;
-        self.latest.clone_from_slice(sample.readings);
     }
 }
 
@@ -298,7 +304,7 @@ impl Recorder for Summarizer {
             time: setup.time,
             names_hash: model.names_hash(),
         };
-        let (elements, fine) = (Elements::new(model), Fine::new(model));
+        let (elements, fine) = (Elements::new(model), Fine::new(model).with_room());
         let bodies = model.system().instruments.len();
         let none = Peaks::none(elements.count(), bodies, setup.body.parts().count());
         *self = Summarizer {
@@ -333,6 +339,13 @@ impl Recorder for Summarizer {
     }
 
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
+        if self.are_of_steps {
+            // up to the end of the run, which may lie within a step
+            self.fine.see(self.latest_s, &self.latest, &[]);
+        }
+        self.take_readings();
+        let (peaks, are_of_steps) = (self.peaks(), self.are_of_steps);
+        self.people.iter_mut().for_each(|one| one.complete(&peaks, are_of_steps));
         self.outcome = Some(outcome.clone());
         Ok(())
     }

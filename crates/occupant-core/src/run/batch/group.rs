@@ -64,7 +64,11 @@ impl<L: Machine> Group<L> {
         }
         let mut place = Box::new(Place::new(model));
         let next = place.begin(jobs.recorder(i));
-        if is_controlled { self.begin_steps(i, place, next, jobs) } else { self.go_on_or_end(i, place, next, jobs) }
+        if is_controlled {
+            return self.begin_steps(i, place, next, jobs);
+        }
+        place.differs_anywhere();
+        self.go_on_or_end(i, place, next, jobs)
     }
 
     /// Makes room for `model` in lane `i`; false if it does not fit the others. Of two structures, that of which more runs
@@ -139,6 +143,7 @@ impl<L: Machine> Group<L> {
         let switched = bench.has_switched();
         for (i, place) in self.places.iter_mut().enumerate() {
             let Some(place) = place.as_mut().filter(|_| h.lane(i) > 0.0) else { continue };
+            place.behind.add(bench.history.changed());
             place.step = place.step.first_part(|_| bears.lane(i));
             h.set_lane(i, place.step.length_s());
             let [_, middle_s, end_s] = place.step.times_s();
@@ -184,6 +189,7 @@ impl<L: Machine> Group<L> {
             gone_back[i] = true;
             self.fetch_start(i, &mut place.run);
             let next = place.go_back(latest);
+            place.differs_anywhere();
             self.go_on_or_end(i, place, next, jobs)?;
         }
         ControlFlow::Continue(gone_back)
@@ -226,19 +232,26 @@ impl<L: Machine> Group<L> {
         let state = self.lane_state(i, &place.run);
         let next = match place.run.accept(&place.model, state, place.step) {
             Err(error) if finite => {
-                self.fetch_history(i, &mut place.run);
+                self.fetch_history(i, &mut place);
                 Next::ended(Status::Failed(error))
             }
             Err(_) => {
                 let kept = place.run.history.memory.clone();
-                self.fetch_history(i, &mut place.run);
+                self.fetch_history(i, &mut place);
                 let failed = std::mem::replace(&mut place.run.history.memory, kept);
+                place.differs_anywhere();
                 Next::ended(Status::Failed(broken(&place.model, &failed, place.step, &state)))
             }
             Ok(()) => {
-                self.fetch_history(i, &mut place.run);
+                self.fetch_history(i, &mut place);
                 self.fetch_rear(i, &mut place.run, place.step);
-                place.output(jobs.recorder(i))
+                let next = place.output(jobs.recorder(i));
+                // one commit, but where steps can be repeated
+                match place.run.rear {
+                    None => place.behind.add(place.run.history.changed()),
+                    Some(_) => place.differs_anywhere(),
+                }
+                next
             }
         };
         self.go_on_or_end(i, place, next, jobs)
@@ -249,7 +262,8 @@ impl<L: Machine> Group<L> {
         // the output touched the history; and a lane that failed gets numbers again
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
-            bench.history.memory.each(&mut place.run.history.memory, put);
+            bench.history.memory.each_marked(&mut place.run.history.memory, &place.behind, put);
+            place.behind.clear();
             each(&mut bench.state, &place.run.state, |lanes, x| lanes.set_lane(i, x));
         }
         match next {
@@ -283,11 +297,12 @@ impl<L: Machine> Group<L> {
 
     /// Updates the history of run `i`. Pairs far from contact stay skipped in groups in which no contact has begun or ended
     /// meanwhile.
-    fn fetch_history(&mut self, i: usize, run: &mut Course) {
-        let Some(bench) = &mut self.bench else { return };
+    fn fetch_history(&mut self, i: usize, place: &mut Place) {
+        let (Some(bench), Place { run, behind, .. }) = (&mut self.bench, place) else { return };
         let lanes = &mut bench.history.memory;
-        run.history.look_again_where(|pair| lanes.contacts[pair].phase.lane(i));
-        lanes.each(&mut run.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+        run.history.look_again_where(behind, |pair| lanes.contacts[pair].phase.lane(i));
+        lanes.each_marked(&mut run.history.memory, behind, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+        behind.clear();
     }
 
     /// Finishes all runs with the scalar kernel.
@@ -298,7 +313,7 @@ impl<L: Machine> Group<L> {
                 self.fetch_ahead(i, &mut place);
             } else {
                 place.run.state = self.lane_state(i, &place.run);
-                self.fetch_history(i, &mut place.run);
+                self.fetch_history(i, &mut place);
             }
             if let Some(latest) = place.latest {
                 self.fetch_rear(i, &mut place.run, latest);

@@ -38,10 +38,14 @@ pub(super) struct Place {
     pub looks: bool,
     /// Whether an element has switched by the end of its latest trial.
     pub jumps: bool,
-    /// Where the memory at the start of the latest step may differ from the one last fetched, and that one from the one
-    /// of the latest output.
+    /// With steps of fixed length, where the memory in lanes may differ from the run's. Under error control, where the
+    /// memory at the start of the latest step may differ from the one last fetched, and that one from the one of the latest
+    /// output.
     pub behind: Marks,
     pub unseen: Marks,
+    /// Under error control, where the memories at the end of the latest step and of the trial may differ from those last
+    /// fetched.
+    pub unread: Marks,
 }
 
 /// Continuation of a run after a step or an output.
@@ -65,7 +69,7 @@ impl Place {
         let (whole, step) = (Step::default(), Step::default());
         let (frames, before) = (Frames::still(run.time_s), (stretch, [whole, step]));
         let (latest, looks, jumps) = (None, false, false);
-        let [behind, unseen] = [run.history.changed().blank(), run.history.changed().blank()];
+        let [behind, unseen, unread] = [(); 3].map(|()| run.history.changed().blank());
         Place {
             frames,
             model,
@@ -81,7 +85,13 @@ impl Place {
             jumps,
             behind,
             unseen,
+            unread,
         }
+    }
+
+    /// Notes that the memory in lanes may differ from the run's anywhere.
+    pub(super) fn differs_anywhere(&mut self) {
+        self.behind.set_all(self.run.history.memory.contacts.len());
     }
 
     /// First output.

@@ -22,10 +22,11 @@ impl<L: Machine> Group<L> {
     pub(super) fn begin_steps(
         &mut self,
         i: usize,
-        place: Box<Place>,
+        mut place: Box<Place>,
         next: Next,
         jobs: &mut dyn Jobs,
     ) -> ControlFlow<()> {
+        place.unread.set_all(place.run.history.memory.contacts.len());
         if let Next::Ends(status) = next {
             return self.hand_out(i, *place, status, jobs);
         }
@@ -52,6 +53,7 @@ impl<L: Machine> Group<L> {
             let (Some(place), Some(ahead)) = (place, &mut bench.ahead) else { continue };
             let errors = Errors { whole: errors.whole.lane(i), within: errors.within.lane(i) };
             place.jumps = switched.lane(i) > 0.0;
+            place.unread.add(ahead.stale());
             verdicts[i] = Some(place.judge(i, ahead, errors));
         }
         shift(bench, &verdicts, places);
@@ -84,6 +86,7 @@ impl<L: Machine> Group<L> {
             let (Some(place), Some(ahead)) = (place, &mut bench.ahead) else { continue };
             if place.looks {
                 ahead.take_look(i);
+                place.unread.add(ahead.stale());
             }
             failed[i] = place.shorten(bears.lane(i)).err();
             h.set_lane(i, if failed[i].is_none() { place.step.length_s() } else { 0.0 });
@@ -201,8 +204,9 @@ impl Place {
         let Ahead { after, trial, .. } = &mut front.ahead;
         if is_asked_for {
             let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
-            ahead.after.memory.each(&mut after.memory, fetch);
-            ahead.trial.memory.each(&mut trial.memory, fetch);
+            ahead.after.memory.each_marked(&mut after.memory, &self.unread, fetch);
+            ahead.trial.memory.each_marked(&mut trial.memory, &self.unread, fetch);
+            self.unread.take_over(ahead.stale());
         } else {
             // corners ask for no more
             for touching in &front.met_in_trial {
@@ -230,8 +234,10 @@ impl Place {
         let Step { end_s, .. } = front.step;
         if self.jumps {
             let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
-            ahead.before.memory.each(&mut front.ahead.before.memory, fetch);
-            ahead.after.memory.each(&mut front.ahead.after.memory, fetch);
+            ahead.before.memory.each_marked(&mut front.ahead.before.memory, &self.behind, fetch);
+            self.unseen.add(&self.behind);
+            self.behind.clear();
+            ahead.after.memory.each_marked(&mut front.ahead.after.memory, &self.unread, fetch);
             let [before, now] = [&front.ahead.before.memory, &front.ahead.after.memory];
             self.run.switches.note(&self.model.system().forces, end_s, before, now);
         }

@@ -43,7 +43,7 @@ pub(crate) fn build(shape: &Shape) -> Result<Faced<f64>, Wrong> {
                 return Err(("two ends at one place".to_owned(), "two different points"));
             }
             let line = along(nalgebra::center(&from, &to), to - from, Section::Round(0.0), [half; 2])?;
-            Ok(Faced::faceless(line.rounded(radius), 2.0 * radius))
+            Ok(Faced::new(line.rounded(radius), Vec::new(), 2.0 * radius))
         }
         &Shape::Rim { centre_m, axis, ring_radius_m, tube_radius_m } => {
             let (ring, radius) = (positive("radius", ring_radius_m)?, positive("tube radius", tube_radius_m)?);
@@ -51,10 +51,12 @@ pub(crate) fn build(shape: &Shape) -> Result<Faced<f64>, Wrong> {
                 let found = format!("a tube of radius {radius} m about a ring of radius {ring} m");
                 return Err((found, "a tube thinner than the ring"));
             }
-            Ok(Faced::faceless(along(centre_m, axis, Section::Ring(ring), [0.0; 2])?.rounded(radius), 2.0 * radius))
+            let line = along(centre_m, axis, Section::Ring(ring), [0.0; 2])?;
+            Ok(Faced::new(line.rounded(radius), Vec::new(), 2.0 * radius))
         }
         &Shape::HalfSpace { point_m, normal } => {
-            Ok(Faced::faceless(along(point_m, normal, Section::Sides(Vec::new()), [0.0, FAR_M])?, FAR_M))
+            let behind = along(point_m, normal, Section::Sides(Vec::new()), [0.0, FAR_M])?;
+            Ok(Faced::new(behind, Vec::new(), FAR_M))
         }
     }
 }
@@ -167,7 +169,7 @@ fn between_ends(whole: Form<f64>, mut faces: Vec<Face<f64>>, across_m: f64, thic
         let normal = if end == 0 { whole.axes.z } else { -whole.axes.z };
         faces.push(Face { normal, rest, offset: normal.dot(whole.centre) + 0.5 * thickness, thickness });
     }
-    Faced { whole, faces, thickness: across_m }
+    Faced::new(whole, faces, across_m)
 }
 
 /// The line of side `i`, drawn in.

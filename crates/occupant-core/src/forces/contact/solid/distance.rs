@@ -18,6 +18,9 @@ use crate::motion::vector::{M3, V3, v3};
 /// Squares of lengths below this are no lengths, m².
 const NOTHING: f64 = 1e-280;
 
+/// Boxes are larger by this than what they hold, m.
+const BOX_M: f64 = 1e-9;
+
 /// A body with thickness in the axes of its frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Form<S> {
@@ -88,6 +91,14 @@ impl<S: Scalar> Form<S> {
         Distance { phi, normal: self.axes.out(v3(g.u * n.u, g.v * n.u, sense * n.v)) }
     }
 
+    /// How far outside a box along the axes of the frame a point is at least along one of them, negative inside.
+    #[inline(always)]
+    pub(super) fn off_box([least, most]: &[V3<S>; 2], point: V3<S>) -> S {
+        let (below, above) = (*least - point, point - *most);
+        let [x, y, z] = [below.x.max(above.x), below.y.max(above.y), below.z.max(above.z)];
+        x.max(y).max(z)
+    }
+
     /// Whether it is all that is behind a plane.
     pub(super) fn is_half_space(&self) -> bool {
         matches!(&self.section, Section::Sides(sides) if sides.is_empty())
@@ -101,6 +112,32 @@ impl<S: Scalar> Form<S> {
         }
         let along = self.axes.z.dot(normal);
         (S::one() - along * along).max(S::zero()).sqrt()
+    }
+}
+
+impl Form<f64> {
+    /// A box along the axes of the frame that holds all of it, its least and greatest coordinates, m.
+    pub(super) fn bounds(&self) -> [V3<f64>; 2] {
+        let axes = &self.axes;
+        // how far it reaches along a direction
+        let along = |way: V3<f64>| {
+            let [u, v, w] = [axes.x.dot(way), axes.y.dot(way), axes.z.dot(way)];
+            let across = match &self.section {
+                Section::Sides(sides) if sides.is_empty() => f64::INFINITY,
+                Section::Sides(sides) => {
+                    let ends = sides.iter().flat_map(|side| side.part.map(|part| (side, part)));
+                    let corner = |(Side { start, direction, .. }, part): (&Side<f64>, f64)| {
+                        (start.u + direction.u * part) * u + (start.v + direction.v * part) * v
+                    };
+                    ends.map(corner).fold(f64::NEG_INFINITY, f64::max)
+                }
+                Section::Round(radius) | Section::Ring(radius) => radius * (u * u + v * v).sqrt(),
+            };
+            let end = (self.ends[0] * w).max(-self.ends[1] * w);
+            self.centre.dot(way) + across + end + self.rounding + BOX_M
+        };
+        let [x, y, z] = [v3(1.0, 0.0, 0.0), v3(0.0, 1.0, 0.0), v3(0.0, 0.0, 1.0)];
+        [v3(-along(-x), -along(-y), -along(-z)), v3(along(x), along(y), along(z))]
     }
 }
 

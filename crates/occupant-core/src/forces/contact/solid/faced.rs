@@ -25,6 +25,8 @@ pub(crate) struct Faced<S> {
     pub faces: Vec<Face<S>>,
     /// How thick the solid is where no face is remembered, m.
     pub thickness: S,
+    /// A box along the axes of the frame that holds K.
+    bounds: [V3<S>; 2],
 }
 
 /// A face k.
@@ -39,14 +41,21 @@ pub(crate) struct Face<S> {
     pub thickness: S,
 }
 
-impl<S> Faced<S> {
-    /// One without faces to remember.
-    pub(super) fn faceless(whole: Form<S>, thickness: S) -> Self {
-        Faced { whole, faces: Vec::new(), thickness }
+impl Faced<f64> {
+    /// A solid with these faces.
+    pub(super) fn new(whole: Form<f64>, faces: Vec<Face<f64>>, thickness: f64) -> Self {
+        let bounds = whole.bounds();
+        Faced { whole, faces, thickness, bounds }
     }
 }
 
 impl<S: Scalar> Faced<S> {
+    /// What φ of `centre` is at least, m, for a fraction of its cost.
+    #[inline(always)]
+    pub(crate) fn at_least(&self, centre: V3<S>) -> S {
+        Form::off_box(&self.bounds, centre)
+    }
+
     /// φ_k of `centre` where a face is remembered, else φ; axes of the frame.
     #[inline(always)]
     pub(crate) fn distance(&self, centre: V3<S>, phase: S) -> Distance<S> {
@@ -142,6 +151,7 @@ impl<S: Copy> Faced<S> {
             whole: self.whole.zip(&other.whole, f)?,
             faces: self.faces.iter().zip(&other.faces).map(face).collect::<Option<_>>()?,
             thickness: f(self.thickness, other.thickness),
+            bounds: [0, 1].map(|i: usize| self.bounds[i].zip(&other.bounds[i], f)),
         })
     }
 }

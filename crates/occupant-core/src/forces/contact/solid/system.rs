@@ -144,6 +144,26 @@ impl<S> Solids<S> {
 }
 
 impl<S: Scalar> Solids<S> {
+    /// How far a sphere is at least from all solids of pair `j`, m, for a fraction of what [`Solids::nearest`] costs.
+    #[inline(always)]
+    pub(crate) fn at_least(&self, j: usize, centre: V3<S>, radius: S) -> S {
+        let mut least = S::of(f64::INFINITY);
+        for member in &self.pairs[j].members {
+            least = least.min(self.shapes[member.solid].at_least(centre));
+        }
+        least - radius
+    }
+
+    /// Whether the solids of pair `j` remember a touch, in any lane.
+    #[inline(always)]
+    pub(crate) fn remember(&self, j: usize, past: &[PairHistory<S>]) -> S::Mask {
+        let mut any = S::truth(false);
+        for member in &self.pairs[j].members {
+            any = any | past[member.past].phase.gt(S::of(OPEN));
+        }
+        any
+    }
+
     /// The nearest solid of pair `j` to a sphere. At an accepted step the remembered faces first take over its
     /// place.
     #[inline(always)]
@@ -178,6 +198,12 @@ impl<S: Scalar> UnionLaw<S> {
         let touches = depth.gt(S::zero());
         pair.phase = S::select(touches, S::of(TOUCHING), S::of(OPEN));
         pair.greatest = S::select(touches, pair.greatest.max(depth), pair.greatest * self.retain);
+    }
+
+    /// Whether a commit of a sphere that is apart changes nothing of what the pair remembers.
+    #[inline(always)]
+    pub(crate) fn stays(&self, pair: &PairHistory<S>) -> S::Mask {
+        !(pair.phase.gt(S::of(OPEN)) | (pair.greatest * self.retain).lt(pair.greatest))
     }
 
     /// Forces on a sphere, in the lanes where the pair is `live`.

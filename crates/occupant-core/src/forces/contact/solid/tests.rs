@@ -99,6 +99,36 @@ fn reference(corners: &[V], axis: V, half: f64, place: V) -> f64 {
 }
 
 #[test]
+fn a_box_tells_what_a_distance_is_at_least() {
+    let mut random = Random(11);
+    for _ in 0..60 {
+        let (centre, axis) = (random.vector(1.0), random.vector(1.0));
+        let middle = Point3::from(centre);
+        let (size, part) = (random.between(0.1, 0.5), random.between(0.01, 0.09));
+        let shapes = [
+            random_prism(&mut random).0,
+            Shape::block(middle, V::new(0.4, 0.2, 0.1), &random.turn(), 0.5 * part),
+            Shape::Disc { centre_m: middle, axis, radius_m: size, thickness_m: 2.2 * part, rounding_m: part },
+            Shape::Capsule { ends_m: [middle, middle + axis], radius_m: size },
+            Shape::Rim { centre_m: middle, axis, ring_radius_m: size, tube_radius_m: part },
+        ];
+        for shape in shapes.iter().map(made) {
+            for far in [1.0, 3.0] {
+                let place = random.vector(far);
+                assert!(shape.at_least(V3::of(&place)) <= phi(&shape, place), "{shape:?} {place}");
+            }
+            // far away along an axis of the frame both are the same
+            for way in [V::x(), -V::x(), V::y(), -V::y(), V::z(), -V::z()] {
+                let off_m = phi(&shape, way * 1e4) - shape.at_least(V3::of(&(way * 1e4)));
+                assert!((0.0..1e-3).contains(&off_m), "{shape:?} {way} {off_m}");
+            }
+        }
+        let behind = made(&Shape::HalfSpace { point_m: middle, normal: axis });
+        assert_eq!(behind.at_least(V3::of(&random.vector(9.0))), f64::NEG_INFINITY);
+    }
+}
+
+#[test]
 fn distances_of_a_box_are_those_of_its_face_edge_and_corner() {
     let (sharp, round) = (made(&cube(0.0)), made(&cube(0.02)));
     for shape in [&sharp, &round] {
