@@ -23,19 +23,22 @@ pub(crate) struct Curves {
 impl Curves {
     /// The table of this name. Tests that ask for one are ignored where `build.rs` has found no folder of crash tests.
     pub(crate) fn open(name: &str) -> Curves {
-        let Some(folder) = option_env!("CRASH_TESTS") else { panic!("no folder of crash tests: see `build.rs`") };
-        let file = Path::new(folder).join(name);
-        let text = std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+        let text = Curves::text(name);
         let mut lines = text.lines();
         let names = lines.next().expect("a heading").split(',').map(str::to_owned).collect();
         let rows = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()).collect();
         Curves { names, rows }
     }
 
+    fn text(name: &str) -> String {
+        let Some(folder) = option_env!("CRASH_TESTS") else { panic!("no folder of crash tests: see `build.rs`") };
+        let file = Path::new(folder).join(name);
+        std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()))
+    }
+
     /// Times and values of a mean curve, by time, from a table of curves that has two columns for each and three lines of heading.
     fn pair(name: &str, curve: &str) -> (Vec<f64>, Vec<f64>) {
-        let folder = option_env!("CRASH_TESTS").expect("a folder of crash tests");
-        let text = std::fs::read_to_string(Path::new(folder).join(name)).unwrap();
+        let text = Curves::text(name);
         let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(';').map(str::trim).collect()).collect();
         let is_of = |i: &usize| lines[0][*i] == curve && lines[1][*i] == "avg";
         let at = (0..lines[0].len()).find(is_of).unwrap_or_else(|| panic!("no curve {curve}"));

@@ -248,20 +248,19 @@ fn check_accelerations(b: &mut Builder, s: &TableSection, table: &NumberTable) -
 /// v′ = v + h (a + a′)/2, x′ = x + h v + h² (2a + a′)/6. A spline through them with the accelerations at its ends has
 /// them everywhere. The speed at the end and the greatest one, m/s.
 fn integrate(table: &mut NumberTable) -> [f64; 2] {
-    let mut speeds_m_s = vec![Vector3::zeros(); table.rows.len()];
-    for axis in 0..3 {
-        let [place, acceleration] = PLACES.map(|from| from + axis);
-        let mut speed_m_s = 0.0;
-        for i in 1..if table.present[acceleration] { table.rows.len() } else { 0 } {
+    let axes: Vec<usize> = (0..3).filter(|axis| table.present[PLACES[1] + axis]).collect();
+    let (mut speed_m_s, mut most_m_s) = (Vector3::<f64>::zeros(), 0.0_f64);
+    for i in 1..table.rows.len() {
+        let h_s = table.rows[i][0] - table.rows[i - 1][0];
+        for &axis in &axes {
+            let [place, acceleration] = PLACES.map(|from| from + axis);
             let (a, next) = (table.rows[i - 1][acceleration], table.rows[i][acceleration]);
-            let h_s = table.rows[i][0] - table.rows[i - 1][0];
-            table.rows[i][place] = table.rows[i - 1][place] + h_s * (speed_m_s + h_s * (2.0 * a + next) / 6.0);
-            speed_m_s += 0.5 * h_s * (a + next);
-            speeds_m_s[i][axis] = speed_m_s;
+            table.rows[i][place] = table.rows[i - 1][place] + h_s * (speed_m_s[axis] + h_s * (2.0 * a + next) / 6.0);
+            speed_m_s[axis] += 0.5 * h_s * (a + next);
         }
+        most_m_s = most_m_s.max(speed_m_s.norm());
     }
-    let speed = |v: &Vector3<f64>| v.norm();
-    [speeds_m_s.last().map_or(0.0, speed), speeds_m_s.iter().map(speed).fold(0.0, f64::max)]
+    [speed_m_s.norm(), most_m_s]
 }
 
 /// Low-pass filters columns of a table at `cutoff_hz`.
