@@ -297,7 +297,8 @@ fn smoothed(stations: &[Station], cutoff_hz: f64) -> Result<Vec<Station>, String
 /// The accelerations at the first and at the last time, z down.
 fn ends(s: &TableSection, rows: &[Vec<f64>]) -> [Vector3<f64>; 2] {
     let sign = s.axes.map_or([1.0; 3], SensorAxes::signs);
-    [0, rows.len() - 1].map(|i| Vector3::from_fn(|axis, _| sign[axis] * rows[i][PLACES[1] + axis]))
+    let at = |row: &Vec<f64>| Vector3::from_fn(|axis, _| sign[axis] * row[PLACES[1] + axis]);
+    [rows.first(), rows.last()].map(|row| row.map_or_else(Vector3::zeros, at))
 }
 
 /// The vehicle's centre of gravity and angles, z down, at the times of the table.

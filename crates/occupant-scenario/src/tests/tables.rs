@@ -89,6 +89,13 @@ fn accelerations_along_the_axes_of_a_sled_are_scaled_and_turned() {
     }
 }
 
+#[test]
+fn a_table_of_accelerations_without_a_row_is_refused() {
+    let (text, _) = ALONG_THE_SLED.split_once("[[").unwrap();
+    let said = with_csv(&format!("{text}[]"), "").err().unwrap_or_default();
+    assert!(said.contains("found 0 stations"), "{said}");
+}
+
 /// A filter acts on the accelerations, so the vehicle still starts from rest; what is held after accelerations that end at rest has them.
 #[test]
 fn accelerations_are_filtered_before_they_are_integrated_and_may_end_at_rest() {
