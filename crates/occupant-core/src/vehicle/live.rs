@@ -10,7 +10,7 @@
 //! so that position, attitude and both velocities are continuous from frame to frame, and every velocity is the
 //! derivative of its position. Accelerations jump between frames: error control ends a step there.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use occupant_units::trig;
 
 use super::attitude::rotation_by;
@@ -232,14 +232,15 @@ fn unturned(phi: Vector3<f64>, omega: Vector3<f64>) -> Vector3<f64> {
     omega - once * 0.5 + phi.cross(&once) * c
 }
 
-/// Rotation vector of a rotation by less than π.
-fn rotation_vector(turn: &Matrix3<f64>) -> Vector3<f64> {
-    let by_sine =
-        Vector3::new(turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]) * 0.5;
+/// Rotation vector of a rotation, of length 0 to π; of the two vectors of length π either. By the quaternion's half angle, which loses no
+/// digits near 0 or near π.
+pub(crate) fn rotation_vector(turn: &Matrix3<f64>) -> Vector3<f64> {
+    let half = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*turn));
+    let (by_sine, cosine) = (half.imag() * half.w.signum(), half.w.abs());
     let sine = by_sine.norm();
-    let angle = trig::atan2(sine, 0.5 * (turn.trace() - 1.0));
-    // sin x = x (1 − x²/6) where x is small
-    if sine < 1e-5 && angle < 1.0 { by_sine * (1.0 + sine * sine / 6.0) } else { by_sine * (angle / sine) }
+    // arcsin x = x (1 + x²/6) where x is small
+    let factor = if sine < 1e-5 { 1.0 + sine * sine / 6.0 } else { trig::atan2(sine, cosine) / sine };
+    by_sine * (2.0 * factor)
 }
 
 /// Latest given frames: a step that ends in the present one may have to be repeated from the previous one.
@@ -307,6 +308,21 @@ mod tests {
             angle_rates_rad_s: Vector3::new(0.5, 0.1, 1.1),
             ..VehicleState::default()
         }
+    }
+
+    /// Every angle from none to a half turn comes back, whatever rounding makes of the matrix's trace.
+    #[test]
+    fn a_rotation_vector_is_that_of_the_rotation() {
+        let axis = Vector3::new(0.3, -0.5, 0.8).normalize();
+        for angle in [0.0, 1e-12, 1e-9, 3e-6, 0.1, 2.0, 3.1, std::f64::consts::PI - 1e-7] {
+            let turn = *Rotation3::new(axis * angle).matrix();
+            for rounded in [turn, turn * (1.0 + 2e-16), turn * (1.0 - 2e-16)] {
+                let off = (rotation_vector(&rounded) - axis * angle).norm();
+                assert!(off < 1e-15 + 1e-14 * angle, "{angle}: off by {off}");
+            }
+        }
+        let half = rotation_vector(Rotation3::new(axis * std::f64::consts::PI).matrix());
+        assert!((half.cross(&axis).norm(), half.norm()) < (1e-8, 3.2) && half.norm() > 3.14159, "{half}");
     }
 
     fn inputs() -> [VehicleInput; 2] {

@@ -44,6 +44,7 @@ pub use cursor::PathCursor;
 pub use driven::DrivenPath;
 pub use fixed::FixedPath;
 pub use frame::FrameMotion;
+pub(crate) use live::rotation_vector;
 pub use live::{LivePath, VehicleInput};
 pub use own::{OwnPath, VehicleMotion, VehicleState};
 pub use problem::PathProblem;

@@ -3,7 +3,7 @@
 //! A rotation is a rotation vector: its direction is the axis, its length the angle, 0 to π rad. In a plane it is the
 //! angle. Nothing here is relative to the start of a run, so derivatives by the initial state are valid.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use occupant_units::unit::Unit::{Metre, Radian};
 
 use super::body::OfSegment;
@@ -11,7 +11,7 @@ use super::joint::OfJoint;
 use crate::body::tree::{Joint, Segment};
 use crate::quantity::{Axes, Quantity, to_j211};
 use crate::results::sample::Sample;
-use crate::vehicle::{FrameMotion, PathCursor};
+use crate::vehicle::{FrameMotion, PathCursor, rotation_vector};
 
 type Of = Quantity<OfSegment>;
 type Joined = Quantity<OfJoint>;
@@ -50,10 +50,6 @@ fn home(s: &Sample<'_>, segment: Segment) -> FrameMotion {
     s.homes[s.model.body().tree.body_of(segment)]
 }
 
-fn rotation_vector(matrix: Matrix3<f64>) -> Vector3<f64> {
-    Rotation3::from_matrix_unchecked(matrix).scaled_axis()
-}
-
 /// Axes of a segment, space axes.
 fn axes(s: &Sample<'_>, segment: Segment) -> Matrix3<f64> {
     s.evaluation.kinematics.axes[segment.index()].to_matrix()
@@ -61,7 +57,7 @@ fn axes(s: &Sample<'_>, segment: Segment) -> Matrix3<f64> {
 
 /// Rotation from upright, where a segment has X forward, Y left and Z up and the vehicle X forward, Y right and Z down.
 fn from_upright(s: &Sample<'_>, segment: Segment, home: &FrameMotion) -> Vector3<f64> {
-    rotation_vector(home.rotation.tr_mul(&axes(s, segment)) * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)))
+    rotation_vector(&(home.rotation.tr_mul(&axes(s, segment)) * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0))))
 }
 
 fn from_vehicle(s: &Sample<'_>, segment: Segment) -> Vector3<f64> {
@@ -71,5 +67,5 @@ fn from_vehicle(s: &Sample<'_>, segment: Segment) -> Vector3<f64> {
 
 fn in_joint(s: &Sample<'_>, joint: Joint) -> Vector3<f64> {
     let row = &s.model.body().tree[joint];
-    rotation_vector(axes(s, row.proximal).tr_mul(&axes(s, row.distal)))
+    rotation_vector(&axes(s, row.proximal).tr_mul(&axes(s, row.distal)))
 }
