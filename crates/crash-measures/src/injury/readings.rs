@@ -7,7 +7,7 @@ use super::definition::{Definition, Lack};
 use super::signals::{Components, Extreme, Extremes, Person, Ribs, Signals};
 use super::special::Special;
 use super::{Filtering, Measure, Options, measures, parts, rear};
-use crate::measure::{Peak, ThreeMs, maximum, three_ms_contiguous, three_ms_cumulative};
+use crate::measure::{Peak, ThreeMs, maximum, three_ms_both};
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
 use crate::signal::{SignalError, filter_cfc, resultant};
 
@@ -133,10 +133,11 @@ fn peak_of(peaks: &Option<Extremes>, which: Extreme) -> Option<Peak> {
 impl Acceleration {
     fn new(resultant_m_s2: Result<Vec<f64>, SignalError>, dt_s: f64) -> Self {
         let signal = resultant_m_s2.as_ref().map_err(Clone::clone);
+        let levels = signal.clone().and_then(|a| three_ms_both(a, dt_s));
         Acceleration {
-            peak: signal.clone().and_then(|a| maximum(a, dt_s)),
-            three_ms_contiguous: signal.clone().and_then(|a| three_ms_contiguous(a, dt_s)),
-            three_ms_cumulative: signal.and_then(|a| three_ms_cumulative(a, dt_s)),
+            peak: signal.and_then(|a| maximum(a, dt_s)),
+            three_ms_contiguous: levels.clone().map(|[level, _]| level),
+            three_ms_cumulative: levels.map(|[_, level]| level),
             resultant_m_s2,
         }
     }

@@ -49,7 +49,9 @@ pub use thorax::{
     ChestSize, Compression, DeepestRib, FourPoints, ThoracicIntercepts, combined_thoracic_index, compression,
     deepest_rib, deflection_rate, pc_score, viscous_criterion,
 };
-pub use three_ms::{ThreeMs, clip_contiguous, clip_cumulative, three_ms_contiguous, three_ms_cumulative};
+pub use three_ms::{
+    ThreeMs, clip_contiguous, clip_cumulative, three_ms_both, three_ms_contiguous, three_ms_cumulative,
+};
 pub use tibia::{TibiaCriticals, straight_moment, tibia_index};
 pub use whiplash::{HeadContact, Nic, Nkm, NkmIntercepts, head_restraint_contact, nic, nkm, rebound_speed};
 

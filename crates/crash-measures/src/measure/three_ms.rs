@@ -39,6 +39,15 @@ pub fn three_ms_cumulative(resultant_mps2: &[f64], dt_s: f64) -> Result<ThreeMs,
     clip_cumulative(resultant_mps2, dt_s, 0.003)
 }
 
+/// [`three_ms_contiguous`] and [`three_ms_cumulative`], of one search for the high part of the signal.
+///
+/// # Errors
+/// As [`clip_contiguous`].
+pub fn three_ms_both(resultant_mps2: &[f64], dt_s: f64) -> Result<[ThreeMs; 2], SignalError> {
+    let heights = Heights::new(resultant_mps2, dt_s, 0.003)?;
+    Ok([heights.held(0.003, Counting::Contiguous)?, heights.held(0.003, Counting::Cumulative)?])
+}
+
 /// Level held for `duration_s` without interruption.
 ///
 /// # Errors
@@ -237,6 +246,7 @@ mod tests {
             // measured 8.1e-11: the crossings fall on samples
             assert!((contiguous.level_mps2 / expected - 1.0).abs() < 1e-9, "{contiguous:?} {expected}");
             assert!((cumulative.level_mps2 / contiguous.level_mps2 - 1.0).abs() < 1e-12);
+            assert_eq!(three_ms_both(&signal, dt_s).unwrap(), [contiguous, cumulative]);
             if expected < a {
                 assert!((contiguous.end_s - contiguous.start_s - 0.003).abs() < 1e-9);
             }
@@ -317,6 +327,7 @@ mod tests {
     #[test]
     fn unusable_signals_are_named() {
         assert!(matches!(three_ms_contiguous(&[1.0, 2.0], 1e-3), Err(SignalError::TooBrief { .. })));
+        assert!(matches!(three_ms_both(&[1.0, 2.0], 1e-3), Err(SignalError::TooBrief { .. })));
         assert!(matches!(three_ms_cumulative(&[1.0; 9], f64::NAN), Err(SignalError::OutOfRange { .. })));
         assert!(matches!(clip_cumulative(&[1.0, f64::NAN, 1.0], 1e-3, 1e-3), Err(SignalError::NotFinite { .. })));
     }

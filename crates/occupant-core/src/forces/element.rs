@@ -233,6 +233,18 @@ impl<S: Scalar> Hints<S> for () {
     fn take_over_for(&mut self, _other: &Self, _share: S) {}
 }
 
+/// Room of which nothing outlasts an evaluation, if there are elements that need it.
+impl<S: Scalar, T: Clone + Debug> Hints<S> for Option<Box<T>> {
+    #[inline(always)]
+    fn take_over(&mut self, _other: &Self) {}
+    #[inline(always)]
+    fn look_again(&mut self, _lanes: S::Mask) {}
+    #[inline(always)]
+    fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
+    #[inline(always)]
+    fn take_over_for(&mut self, _other: &Self, _share: S) {}
+}
+
 /// Energy stored by the elements of a kind, or dissipated according to their memory.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredEnergy {

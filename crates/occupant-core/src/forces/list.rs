@@ -18,6 +18,8 @@ use super::shown::{Reported, Tracker};
 use super::stored::Archive;
 use crate::body::Body;
 use crate::forces::sphere::Site;
+#[cfg(any(target_arch = "x86_64", test))]
+use crate::motion::lanes::Lanes;
 use crate::motion::layout::Layout;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
@@ -628,20 +630,14 @@ impl<S: Scalar> History<S> {
 
 #[cfg(any(target_arch = "x86_64", test))]
 impl History<f64> {
-    /// Stores `memory`, of a later position; pairs that have no mark are equal. Pairs far from contact stay skipped in groups
-    /// in which no contact has begun or ended meanwhile.
+    /// Stores `memory`, of another position; pairs that have no mark are equal. The next commit must be told what to visit.
     pub(crate) fn remember(&mut self, memory: &Memory<f64>, marks: &Marks) {
-        self.look_again_where(marks, |pair| memory.contacts[pair].phase);
         self.memory.take_over_marked(memory, marks);
     }
 
-    /// Makes the next commit visit the groups of marked pairs whose phase is another at a later position.
-    pub(crate) fn look_again_where(&mut self, marks: &Marks, phase: impl Fn(usize) -> f64) {
-        for pair in marks.iter() {
-            if self.memory.contacts[pair].phase != phase(pair) {
-                self.hints.contacts.look_again_at(pair);
-            }
-        }
+    /// Makes the next commit visit what one of `lanes` would visit, whose memory in lane `i` this is.
+    pub(crate) fn watch_as<L: Lanes>(&mut self, lanes: &History<L>, i: usize) {
+        self.hints.contacts.watch_as(&lanes.hints.contacts, i);
     }
 }
 

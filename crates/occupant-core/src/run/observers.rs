@@ -92,7 +92,7 @@ pub(super) struct Seen {
     /// By sphere and surface.
     known: Vec<bool>,
     /// By pair: the part noted last, counted from 1.
-    noted: Vec<usize>,
+    noted: Vec<u32>,
     pub touches: Vec<FirstTouch>,
     pub peaks: Peaks,
     pub fine: Fine,
@@ -123,7 +123,8 @@ struct Look {
 struct Sum {
     force_n: V3<f64>,
     hardest: Peak,
-    surface: usize,
+    /// Pair and part of the hardest contact.
+    of: [usize; 2],
 }
 
 impl Seen {
@@ -203,9 +204,11 @@ impl Seen {
     /// Notes a contact of `model`, for which this was made.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
-        if std::mem::replace(&mut self.noted[meeting.pair], meeting.part + 1) == meeting.part + 1 {
+        let (noted, part) = (&mut self.noted[meeting.pair], meeting.part as u32 + 1);
+        if *noted == part {
             return;
         }
+        *noted = part;
         let surface = model.system().forces.contacts.surface(meeting.pair, meeting.part);
         let sphere = meeting.sphere;
         let known = &mut self.known[sphere * self.surfaces + surface];
@@ -228,7 +231,7 @@ impl Look {
         let parts: Vec<&str> = body.parts().collect();
         let part_of = |part: &str| parts.iter().position(|of| *of == part).unwrap_or(0);
         let bodies = model.system().instruments.len();
-        let none = Sum { force_n: V3::zero(), hardest: Peak::NONE, surface: 0 };
+        let none = Sum { force_n: V3::zero(), hardest: Peak::NONE, of: [0; 2] };
         Look {
             part_of: body.spheres.iter().map(|sphere| part_of(&sphere.part)).collect(),
             starts_m: starts_m(model),
@@ -302,13 +305,14 @@ impl Look {
                 peak.penetration.see(depth_m, time_s);
                 peak.used = peak.used.max(depth_m / thickness_m);
                 if sum.hardest.see(normal_force_n, time_s) {
-                    sum.surface = contacts.surface(pair, side);
+                    sum.of = [pair, side];
                 }
             }
         }
         for (sum, peak) in self.sums.iter().zip(&mut peaks.parts) {
             if sum.hardest.value > Peak::NONE.value && peak.force.see(sum.force_n.norm_squared().sqrt(), time_s) {
-                peak.surface = sum.surface;
+                let [pair, side] = sum.of;
+                peak.surface = contacts.surface(pair, side);
             }
         }
     }
@@ -363,6 +367,11 @@ impl Tracker<f64> for Met<'_> {
     #[inline(always)]
     fn number(&mut self, number: f64) {
         self.numbers.push(number);
+    }
+
+    #[inline(always)]
+    fn numbers(&mut self, numbers: &[f64]) {
+        self.numbers.extend_from_slice(numbers);
     }
 
     #[inline(always)]

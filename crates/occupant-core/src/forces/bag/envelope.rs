@@ -51,9 +51,9 @@ pub(super) struct EnvelopeLaw<S> {
 
 /// An envelope at one instant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Envelope<S> {
+pub(super) struct Envelope<'a, S> {
     /// Effect of each sphere.
-    pub(super) pressed: [Pressed<S>; MOST_SPHERES],
+    pub(super) pressed: &'a [Pressed<S>],
     /// V_free, m³, and its rate, m³/s.
     pub(super) free: S,
     pub(super) growth: S,
@@ -64,6 +64,19 @@ pub(super) struct Envelope<S> {
     pub(super) covered: S,
     /// Bit set 2^i of the spheres i that have reached the mount plane or the centre.
     pub(super) bottoms: S,
+}
+
+/// Room for the spheres of a bag at one instant, reused by the next: it is large to clear and to copy.
+#[derive(Clone, Debug)]
+pub struct Room<S> {
+    pressed: [Pressed<S>; MOST_SPHERES],
+    caps: [Cap<S>; MOST_SPHERES],
+}
+
+impl<S: Scalar> Room<S> {
+    pub(super) fn new() -> Self {
+        Room { pressed: [Pressed::none(); MOST_SPHERES], caps: [no_cap(); MOST_SPHERES] }
+    }
 }
 
 /// Effect of a sphere on an envelope.
@@ -148,10 +161,17 @@ impl<S: Copy> EnvelopeLaw<S> {
 impl<S: Scalar> EnvelopeLaw<S> {
     /// The envelope, with the depths at which spheres are held.
     #[inline(always)]
-    pub(super) fn at(&self, at: &Instant<'_, S>, unfolded: &Unfolded<S>, held: &[S; MOST_SPHERES]) -> Envelope<S> {
-        let (mut bottoms, mut touched) = (S::zero(), false);
-        let mut pressed = [Pressed::none(); MOST_SPHERES];
-        let mut caps = [no_cap(); MOST_SPHERES];
+    pub(super) fn at<'a>(
+        &self,
+        at: &Instant<'_, S>,
+        unfolded: &Unfolded<S>,
+        held: &[S; MOST_SPHERES],
+        room: &'a mut Room<S>,
+    ) -> Envelope<'a, S> {
+        let (mut bottoms, mut touched, count) = (S::zero(), false, self.spheres.len());
+        let (pressed, caps) = (&mut room.pressed[..count], &mut room.caps[..count]);
+        pressed.fill(Pressed::none());
+        caps.fill(no_cap());
         for (i, (sphere, reach)) in self.spheres.iter().enumerate() {
             let [has_bottomed, holds] = self.press(at, unfolded, (*sphere, *reach), held[i], &mut caps[i]);
             bottoms += has_bottomed * flag(i);
@@ -164,11 +184,11 @@ impl<S: Scalar> EnvelopeLaw<S> {
             let (one, o) = (S::one(), S::zero());
             return Envelope { pressed, free: whole, growth, crowd: one, taken: o, covered: o, bottoms };
         }
-        let union = unite(&caps[..self.spheres.len()], self.shape.face());
+        let union = unite(caps, self.shape.face());
         let axes = &at.frames[self.frame].axes;
         let is_thrown = unfolded.growth.gt(S::zero());
         let thrown = S::select(is_thrown, self.thrown / (unfolded.scale * unfolded.scale), S::zero());
-        for ((pressed, cap), (area, aside)) in pressed.iter_mut().zip(&caps).zip(&union.slopes) {
+        for ((pressed, cap), (area, aside)) in pressed.iter_mut().zip(&*caps).zip(&union.slopes) {
             let push = axes.out(cap.gradient * *area - *aside);
             let speed = cap.closing.max(S::zero());
             let blow = thrown * area.max(S::zero()) * speed * speed;

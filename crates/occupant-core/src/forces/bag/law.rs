@@ -10,7 +10,7 @@
 //! at the ends of accepted steps. Their difference is the residual of the gas's balance.
 
 use super::data::{Bag, FOLDED, Gas};
-use super::envelope::{Envelope, EnvelopeLaw};
+use super::envelope::{Envelope, EnvelopeLaw, Room};
 use super::gas::{GasLaw, Mixture};
 use super::inflator::{InflatorLaw, Outflow, OutletLaw};
 use super::past::BagPast;
@@ -45,9 +45,9 @@ pub struct BagLaw<S> {
 
 /// A bag at one instant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Now<S: Scalar> {
+pub(super) struct Now<'a, S: Scalar> {
     pub(super) unfolded: Unfolded<S>,
-    pub(super) envelope: Envelope<S>,
+    pub(super) envelope: Envelope<'a, S>,
     pub(super) gas: Mixture<S>,
 }
 
@@ -161,9 +161,9 @@ impl<S: Scalar> BagLaw<S> {
 
     /// The bag at its stored state.
     #[inline(always)]
-    pub(super) fn now(&self, at: &Instant<'_, S>, past: &BagPast<S>) -> Now<S> {
+    pub(super) fn now<'a>(&self, at: &Instant<'_, S>, past: &BagPast<S>, room: &'a mut Room<S>) -> Now<'a, S> {
         let unfolded = self.unfold.at(at);
-        let envelope = self.envelope.at(at, &unfolded, &past.held);
+        let envelope = self.envelope.at(at, &unfolded, &past.held, room);
         let (own, [unit_energy, unit_mass]) = (&at.state.own()[self.first..], self.units());
         let parts = self.gases().zip(own[MASSES..].iter().map(|m| *m * unit_mass));
         let mut gas = Mixture::new(own[ENERGY] * unit_energy, self.ambient[0], envelope.free, parts);
@@ -173,9 +173,9 @@ impl<S: Scalar> BagLaw<S> {
 
     /// Stores the spheres that reached the centre, and opened vents; true where a sphere is newly held or released.
     #[inline(always)]
-    pub(super) fn commit(&self, now: &Now<S>, past: &mut BagPast<S>) -> S::Mask {
+    pub(super) fn commit(&self, now: &Now<'_, S>, past: &mut BagPast<S>) -> S::Mask {
         let (mut changes, fired) = (S::truth(false), now.unfolded.fired);
-        for (held, pressed) in past.held.iter_mut().zip(&now.envelope.pressed) {
+        for (held, pressed) in past.held.iter_mut().zip(now.envelope.pressed) {
             // a bag beside it in lanes may have fired before it
             let is_held = S::select(fired, pressed.held, *held);
             changes = changes | held.lt(is_held) | held.gt(is_held);
@@ -190,7 +190,7 @@ impl<S: Scalar> BagLaw<S> {
     pub(super) fn flow(
         &self,
         at: &Instant<'_, S>,
-        now: &Now<S>,
+        now: &Now<'_, S>,
         past: &BagPast<S>,
         power: S,
         rates: &mut [S],
@@ -236,7 +236,7 @@ impl<S: Scalar> BagLaw<S> {
 
     /// Updates the gas balance at an accepted step.
     #[inline(always)]
-    pub(super) fn keep_balance(&self, at: &Instant<'_, S>, now: &Now<S>, past: &mut BagPast<S>) {
+    pub(super) fn keep_balance(&self, at: &Instant<'_, S>, now: &Now<'_, S>, past: &mut BagPast<S>) {
         let (o, gas, [unit, _]) = (S::zero(), &now.gas, self.units());
         let fired = now.unfolded.fired;
         let begins = fired & !past.fired.gt(o);

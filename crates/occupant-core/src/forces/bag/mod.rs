@@ -26,6 +26,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::Quantity;
 pub use data::*;
+use envelope::Room;
 pub use law::BagLaw;
 use law::Now;
 use occupant_units::unit::Unit;
@@ -61,7 +62,7 @@ impl Element for Bags {
     type Data<'a> = &'a [Bag];
     type Law<S> = Vec<BagLaw<S>>;
     type Past<S> = BagPast<S>;
-    type Hints<S: Scalar> = ();
+    type Hints<S: Scalar> = Option<Box<Room<S>>>;
     type Action<S> = BagAction<S>;
 
     fn check(data: &[Bag], body: &Body, problems: &mut Problems) {
@@ -84,7 +85,9 @@ impl Element for Bags {
         law.iter().map(|_| BagPast::none()).collect()
     }
 
-    fn hints<S: Scalar>(_law: &Vec<BagLaw<S>>) {}
+    fn hints<S: Scalar>(law: &Vec<BagLaw<S>>) -> Option<Box<Room<S>>> {
+        (!law.is_empty()).then(|| Box::new(Room::new()))
+    }
 
     fn count<S>(law: &Vec<BagLaw<S>>) -> usize {
         law.len()
@@ -132,12 +135,14 @@ impl Element for Bags {
         law: &Vec<BagLaw<S>>,
         at: &Instant<'_, S>,
         past: &mut [BagPast<S>],
-        _hints: &mut (),
+        room: &mut Option<Box<Room<S>>>,
         load: &mut Load<S>,
         show: &mut impl FnMut(&BagAction<S>),
     ) {
+        // all bags use the same room; nothing in it outlasts an evaluation
+        let Some(room) = room else { return };
         for (bag, past) in law.iter().zip(past) {
-            act(bag, at, past, load, show);
+            act(bag, at, past, room, load, show);
         }
     }
 
@@ -155,6 +160,7 @@ fn act<S: Scalar>(
     law: &BagLaw<S>,
     at: &Instant<'_, S>,
     past: &mut BagPast<S>,
+    room: &mut Room<S>,
     load: &mut Load<S>,
     show: &mut impl FnMut(&BagAction<S>),
 ) {
@@ -162,9 +168,9 @@ fn act<S: Scalar>(
         load.own[law.numbers()].fill(S::zero());
         return show(&BagAction::idle(law));
     }
-    let mut now = law.now(at, past);
+    let mut now = law.now(at, past, room);
     if at.accepted && S::any(law.commit(&now, past)) {
-        now = law.now(at, past);
+        now = law.now(at, past, room);
     }
     let pushes = bear(law, at, &now, load);
     let flows = law.flow(at, &now, past, pushes.power, &mut load.own[law.numbers()]);
@@ -184,7 +190,7 @@ struct Pushes<S> {
 
 /// Loads of the bag on the body, and their powers: −κ(p − p_a)∂V/∂x at the centre of a sphere, friction where it touches.
 #[inline(always)]
-fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mut Load<S>) -> Pushes<S> {
+fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, load: &mut Load<S>) -> Pushes<S> {
     let (o, envelope) = (S::zero(), &now.envelope);
     let frame = &at.frames[law.envelope.frame];
     let mut pushes = Pushes { forces: [V3::zero(); MOST_SPHERES], power: o };

@@ -91,7 +91,7 @@ impl<S: Scalar> BagAction<S> {
     pub(super) fn new(
         law: &BagLaw<S>,
         at: &Instant<'_, S>,
-        (now, past): (&Now<S>, &BagPast<S>),
+        (now, past): (&Now<'_, S>, &BagPast<S>),
         pushes: &Pushes<S>,
         flows: &Flows<S>,
     ) -> Self {

@@ -63,9 +63,7 @@ impl Reported for Belts {
 
     #[inline(always)]
     fn track<S: Scalar>(b: &BeltAction<S>, tracker: &mut impl Tracker<S>) {
-        for number in [b.loop_force, b.elongation, b.force.norm_squared().sqrt()] {
-            tracker.number(number);
-        }
+        tracker.numbers(&[b.loop_force, b.elongation, b.force.norm_squared().sqrt()]);
     }
 
     fn keep(past: &mut Vec<BeltHistory<f64>>, like: Option<&[BeltHistory<f64>]>, file: &mut dyn Archive) {

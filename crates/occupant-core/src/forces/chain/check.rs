@@ -1,7 +1,7 @@
 //! Checks of belts over several nodes: their data and their initial course.
 
 use super::data::{Chain, Cue, NEVER, Node, Rest, Site, Stroke, Track};
-use super::law::Lies;
+use super::law::{Lies, Room};
 use super::site::TrackLaw;
 use super::{ChainLaw, ChainPast, MOST_ARCS, MOST_NODES};
 use crate::body::{Body, Shares};
@@ -268,8 +268,8 @@ pub(super) fn laid(
             let found = format!("{} names of straps", chain.straps.len());
             problems.error(format!("{path}.straps"), found, format!("{count}, one for each"));
         }
-        let mut lies = Lies::nowhere();
-        let now = law.now(at, past, &mut lies, false);
+        let mut room = Room::new();
+        let now = law.now(at, past, &mut room, false);
         for (k, node) in chain.nodes.iter().enumerate() {
             let node_path = format!("{path}.nodes[{k}]");
             if let (Site::Sphere(sphere), true) = (&node.site, past.nodes[k].on == 0.0) {
@@ -283,7 +283,7 @@ pub(super) fn laid(
             slope(chain, body, (k, &node_path), at, &now.lies.places, problems);
             planes(chain, past, k, now.lies, problems, &node_path);
         }
-        for (name, run) in chain.straps.iter().zip(&now.taut.runs) {
+        for (name, run) in chain.straps.iter().zip(now.taut.runs) {
             if run.length.is_nan() || run.length <= 0.0 {
                 problems.error(&path, format!("the strap {name} has no length"), "nodes in different places");
             } else if run.length < SHORT_M {
@@ -291,7 +291,7 @@ pub(super) fn laid(
                 problems.warning(&path, found, "50 mm or more: shorter ones are very stiff");
             }
         }
-        let tension = now.taut.solved.straps[0].tension;
+        let tension = now.taut.straps[0].tension;
         if tension > MOST_START_N {
             problems.warning(&path, format!("a tension of {tension:.0} N at the start"), "less than 100 N");
         }

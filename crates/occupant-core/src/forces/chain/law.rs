@@ -5,7 +5,7 @@ use super::data::Chain;
 use super::past::{ChainPast, NodePast};
 use super::path::{self, Bend, Place, turn};
 use super::site::NodeLaw;
-use super::tension::{Course, Straps, Taut};
+use super::tension::{Course, Straps, Taut, Web};
 use crate::body::Body;
 use crate::forces::element::Instant;
 use crate::motion::frame::Moving;
@@ -25,11 +25,25 @@ pub struct ChainLaw<S> {
 }
 
 /// Geometry of a chain.
+#[derive(Clone, Debug)]
 pub(super) struct Lies<S> {
     pub(super) ways: [S; MOST_NODES],
     pub(super) places: [Place<S>; MOST_NODES],
     pub(super) bends: [Bend<S>; MOST_NODES],
     pub(super) course: Course<S>,
+}
+
+/// Room for a chain at one instant, reused by the next: it is large to clear and to copy.
+#[derive(Clone, Debug)]
+pub struct Room<S> {
+    lies: Lies<S>,
+    web: Web<S>,
+}
+
+impl<S: Scalar> Room<S> {
+    pub(super) fn new() -> Self {
+        Room { lies: Lies::nowhere(), web: Web::new() }
+    }
 }
 
 /// A chain at one instant.
@@ -53,7 +67,6 @@ pub(super) struct Committed<S: Scalar> {
 
 impl<S: Scalar> Lies<S> {
     /// No changes.
-    #[inline(always)]
     pub(super) fn nowhere() -> Self {
         let (places, bends) = ([Place::nowhere(); MOST_NODES], [Bend::none(); MOST_NODES]);
         Lies { ways: [S::zero(); MOST_NODES], places, bends, course: Course::none() }
@@ -194,7 +207,7 @@ impl<S: Scalar> ChainLaw<S> {
             places[k] = node.place(at, self.carrier(at, node), ways[k], &past.nodes[k]);
         }
         path::bends(&places[..count], &past.nodes, bends);
-        *course = Course::none();
+        course.clear();
         let mut strap = 0;
         for (k, node) in self.nodes.iter().enumerate().skip(1) {
             let (bend, past) = (&bends[k], &past.nodes[k]);
@@ -217,31 +230,42 @@ impl<S: Scalar> ChainLaw<S> {
         }
     }
 
-    /// The chain at one instant, from its stored state; `lies` is its geometry, recomputed unless it `is_known`.
+    /// The chain at one instant, from its stored state; its geometry in `room` is recomputed unless it `is_known`.
     #[inline(always)]
     pub(super) fn now<'a>(
         &'a self,
         at: &Instant<'_, S>,
         past: &ChainPast<S>,
-        lies: &'a mut Lies<S>,
+        room: &'a mut Room<S>,
         is_known: bool,
     ) -> Now<'a, S> {
-        let taut =
-            if S::IS_WIDE { self.within(at, past, lies, is_known) } else { self.apart(at, past, lies, is_known) };
-        Now { lies, taut }
+        if S::IS_WIDE { self.within(at, past, room, is_known) } else { self.apart(at, past, room, is_known) }
     }
 
     #[inline(never)]
-    fn apart(&self, at: &Instant<'_, S>, past: &ChainPast<S>, lies: &mut Lies<S>, is_known: bool) -> Taut<'_, S> {
-        self.within(at, past, lies, is_known)
+    fn apart<'a>(
+        &'a self,
+        at: &Instant<'_, S>,
+        past: &ChainPast<S>,
+        room: &'a mut Room<S>,
+        is_known: bool,
+    ) -> Now<'a, S> {
+        self.within(at, past, room, is_known)
     }
 
     #[inline(always)]
-    fn within(&self, at: &Instant<'_, S>, past: &ChainPast<S>, lies: &mut Lies<S>, is_known: bool) -> Taut<'_, S> {
+    fn within<'a>(
+        &'a self,
+        at: &Instant<'_, S>,
+        past: &ChainPast<S>,
+        room: &'a mut Room<S>,
+        is_known: bool,
+    ) -> Now<'a, S> {
+        let Room { lies, web } = room;
         if !is_known {
             self.lay(at, past, lies);
         }
-        self.straps.taut(at.frames.time, &lies.course, past)
+        Now { taut: self.straps.taut(at.frames.time, &lies.course, past, web), lies }
     }
 
     /// Forces of the webbing on the nodes, space axes, N.
@@ -249,7 +273,7 @@ impl<S: Scalar> ChainLaw<S> {
     pub(super) fn forces(&self, now: &Now<'_, S>) -> [V3<S>; MOST_NODES] {
         let (mut list, mut strap) = ([V3::zero(); MOST_NODES], 0);
         for (k, node) in self.nodes.iter().enumerate() {
-            let (bend, straps) = (&now.lies.bends[k], &now.taut.solved.straps);
+            let (bend, straps) = (&now.lies.bends[k], now.taut.straps);
             let before = straps[strap].tension;
             strap += usize::from(node.rubs);
             list[k] = bend.back * before + bend.ahead * straps[strap].tension;
@@ -260,7 +284,7 @@ impl<S: Scalar> ChainLaw<S> {
     /// Moment of the webbing on a sphere with friction at the start of this strap, space axes, N·m.
     #[inline(always)]
     pub(super) fn couple(&self, now: &Now<'_, S>, k: usize, strap: usize) -> V3<S> {
-        let (straps, lies) = (&now.taut.solved.straps, now.lies);
+        let (straps, lies) = (now.taut.straps, now.lies);
         lies.bends[k].normal * (lies.places[k].radius * (straps[strap - 1].tension - straps[strap].tension))
     }
 

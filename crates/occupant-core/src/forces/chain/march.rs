@@ -5,7 +5,6 @@
 //! of x_s each way (our decision); what the surface of a sphere has carried over passes without slip. At the last node nothing
 //! may pass: R(x) = Δs_{n+1} = 0. R rises strictly with x.
 
-use super::MOST_NODES;
 use super::feed::Feed;
 use super::tension::WebbingLaw;
 use crate::forces::decay::decay;
@@ -54,6 +53,16 @@ pub(super) struct Tense<S> {
     pub(super) play: S,
 }
 
+impl<S: Scalar> Run<S> {
+    /// No webbing, and no friction.
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        let o = S::zero();
+        let (hold, beside) = (S::one(), [o; 2]);
+        Run { length: o, before: o, greatest: o, set: o, grip: o, hold, play: o, carried: o, beside }
+    }
+}
+
 impl<S: Scalar> Tense<S> {
     #[inline(always)]
     pub(super) fn none() -> Self {
@@ -62,10 +71,9 @@ impl<S: Scalar> Tense<S> {
     }
 }
 
-/// All straps of a solved chain.
+/// A solved chain.
 pub(super) struct Solved<S: Scalar> {
     pub(super) x: S,
-    pub(super) straps: [Tense<S>; MOST_NODES],
     /// Webbing passed beyond the last node, zero except for rounding, m.
     pub(super) residual: S,
     /// The same if it is larger and no tensions were found; else 0.
@@ -79,7 +87,7 @@ pub(super) fn march<S: Scalar>(
     feed: &Feed<'_, S>,
     runs: &[Run<S>],
     x: S,
-    straps: &mut [Tense<S>; MOST_NODES],
+    straps: &mut [Tense<S>],
 ) -> (S, S) {
     let start = feed.at(x);
     let (mut tension, mut slope) = (start.tension, start.tension_rate);
@@ -161,7 +169,7 @@ impl<S: Scalar> Bracket<S> {
     }
 }
 
-/// The solved chain: slack, or at the root of R.
+/// The solved chain: slack, or at the root of R; writes its straps.
 #[inline(always)]
 pub(super) fn solve<S: Scalar>(
     webbing: &WebbingLaw<S>,
@@ -169,9 +177,10 @@ pub(super) fn solve<S: Scalar>(
     runs: &[Run<S>],
     start: S,
     is_free: S::Mask,
+    straps: &mut [Tense<S>],
 ) -> Solved<S> {
     let (o, least) = (S::zero(), feed.least());
-    let mut straps = [Tense::none(); MOST_NODES];
+    straps.fill(Tense::none());
     let passed = feed.at(least).passed;
     let surplus = passed + surplus(webbing, runs);
     let is_number = surplus.abs().lt(S::of(1e300));
@@ -185,7 +194,7 @@ pub(super) fn solve<S: Scalar>(
     let mut bracket = Bracket::new(S::select(feed.is_open, start, start.max(least)), feed.is_open, least);
     let (mut done, mut r, mut slope) = (is_slack, o, S::one());
     for _ in 0..MARCHES {
-        (r, slope) = march(webbing, feed, runs, bracket.x, &mut straps);
+        (r, slope) = march(webbing, feed, runs, bracket.x, straps);
         done = done | r.abs().lt(limit);
         if !S::any(!done) {
             break;
@@ -196,18 +205,18 @@ pub(super) fn solve<S: Scalar>(
     if S::HAS_SLOPES {
         // one more step gives the exact derivative and leaves the value as it is
         x -= (r - r.value_alone()) / slope.value_alone();
-        (r, _) = march(webbing, feed, runs, x, &mut straps);
+        (r, _) = march(webbing, feed, runs, x, straps);
     }
     let residual = S::select(is_slack, o, r);
     let unsolved = S::select(done, o, S::of(f64::MIN_POSITIVE).max(residual.abs()));
     let broken = S::select(done, o, S::of(f64::NAN));
-    for strap in &mut straps[..runs.len()] {
+    for strap in straps.iter_mut() {
         strap.tension += broken;
     }
     if S::any(is_slack) {
-        slacken(webbing, runs, passed, is_slack, &mut straps);
+        slacken(webbing, runs, passed, is_slack, straps);
     }
-    Solved { x: S::select(is_slack, least, x), straps, residual, unsolved }
+    Solved { x: S::select(is_slack, least, x), residual, unsolved }
 }
 
 /// Excess length without tension, when every strap has its geometric length, m.
@@ -222,13 +231,7 @@ fn surplus<S: Scalar>(webbing: &WebbingLaw<S>, runs: &[Run<S>]) -> S {
 
 /// Straps without tension: nothing passes except the feed of the first node.
 #[inline(always)]
-fn slacken<S: Scalar>(
-    webbing: &WebbingLaw<S>,
-    runs: &[Run<S>],
-    passed: S,
-    is_slack: S::Mask,
-    straps: &mut [Tense<S>; MOST_NODES],
-) {
+fn slacken<S: Scalar>(webbing: &WebbingLaw<S>, runs: &[Run<S>], passed: S, is_slack: S::Mask, straps: &mut [Tense<S>]) {
     let o = S::zero();
     for (i, (run, strap)) in runs.iter().zip(straps).enumerate() {
         let fed = if i == 0 { passed } else { o };

@@ -36,7 +36,7 @@ use crate::quantity::Quantity;
 pub(crate) use check::plain_laps;
 pub use data::*;
 pub use law::ChainLaw;
-use law::{Committed, Lies, Now};
+use law::{Committed, Now, Room};
 use occupant_units::unit::Unit;
 pub use past::ChainPast;
 use placed_text::Problems;
@@ -73,7 +73,7 @@ impl Element for Chains {
     type Data<'a> = &'a [Chain];
     type Law<S> = Vec<ChainLaw<S>>;
     type Past<S> = ChainPast<S>;
-    type Hints<S: Scalar> = ();
+    type Hints<S: Scalar> = Option<Box<Room<S>>>;
     type Action<S> = StrapAction<S>;
 
     fn check(data: &[Chain], body: &Body, problems: &mut Problems) {
@@ -107,7 +107,9 @@ impl Element for Chains {
         check::laid(law, data, &pasts, body, at, problems);
     }
 
-    fn hints<S: Scalar>(_law: &Vec<ChainLaw<S>>) {}
+    fn hints<S: Scalar>(law: &Vec<ChainLaw<S>>) -> Option<Box<Room<S>>> {
+        (!law.is_empty()).then(|| Box::new(Room::new()))
+    }
 
     fn count<S>(law: &Vec<ChainLaw<S>>) -> usize {
         law.len()
@@ -168,12 +170,14 @@ impl Element for Chains {
         law: &Vec<ChainLaw<S>>,
         at: &Instant<'_, S>,
         past: &mut [ChainPast<S>],
-        _hints: &mut (),
+        room: &mut Option<Box<Room<S>>>,
         load: &mut Load<S>,
         show: &mut impl FnMut(&StrapAction<S>),
     ) {
+        // all chains use the same room; nothing in it outlasts an evaluation
+        let Some(room) = room else { return };
         for (chain, past) in law.iter().zip(past) {
-            act(chain, at, past, load, show);
+            act(chain, at, past, room, load, show);
         }
     }
 
@@ -220,13 +224,14 @@ fn act<S: Scalar>(
     chain: &ChainLaw<S>,
     at: &Instant<'_, S>,
     past: &mut ChainPast<S>,
+    room: &mut Room<S>,
     load: &mut Load<S>,
     show: &mut impl FnMut(&StrapAction<S>),
 ) {
-    let (mut step, mut lies, mut is_known): (Option<Committed<S>>, _, _) = (None, Lies::nowhere(), false);
+    let (mut step, mut is_known): (Option<Committed<S>>, _) = (None, false);
     // a loop, so that there is one copy of what is looked at twice
     let now = loop {
-        let now = chain.now(at, past, &mut lies, is_known);
+        let now = chain.now(at, past, room, is_known);
         match &mut step {
             None if at.accepted && S::any(at.frames.time.gt(past.device.time)) => {
                 let found = chain.commit(at, &now, past);

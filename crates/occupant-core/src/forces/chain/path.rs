@@ -98,8 +98,8 @@ pub(super) fn bends<S: Scalar>(
     bends: &mut [Bend<S>; MOST_NODES],
 ) {
     let (o, none) = (S::zero(), V3::zero());
-    *bends = [Bend::none(); MOST_NODES];
     let count = places.len();
+    bends[..count].fill(Bend::none());
     let behind = behind(places, past);
     // from the node before: where it is, and what its arc gives to the gradient at the next node
     let (mut before, mut given) = ((places[0].centre, places[0].radius), none);

@@ -91,7 +91,7 @@ impl<S: Scalar> StrapAction<S> {
     ) -> Self {
         let o = S::zero();
         let (straps, lies) = (&chain.straps, &now.lies);
-        let (tense, node) = (&now.taut.solved.straps[strap], straps.starts[strap]);
+        let (tense, node) = (&now.taut.straps[strap], straps.starts[strap]);
         let end = straps.starts.get(strap + 1).copied().unwrap_or(chain.nodes.len() - 1);
         let frame = &at.frames[chain.frame];
         let (own, device) = (&past.nodes[node], &past.device);
@@ -287,9 +287,7 @@ impl Reported for Chains {
 
     #[inline(always)]
     fn track<S: Scalar>(s: &StrapAction<S>, tracker: &mut impl Tracker<S>) {
-        for number in [s.force, s.fed, -s.fed, s.lost] {
-            tracker.number(number);
-        }
+        tracker.numbers(&[s.force, s.fed, -s.fed, s.lost]);
     }
 
     fn keep(past: &mut Vec<ChainPast<f64>>, like: Option<&[ChainPast<f64>]>, file: &mut dyn Archive) {

@@ -7,7 +7,7 @@ use super::MOST_NODES;
 use super::data::{Chain, NEVER, Rest};
 use super::device::{DeviceLaw, Moment, Phase};
 use super::feed::Feed;
-use super::march::{Run, Solved, solve};
+use super::march::{Run, Solved, Tense, solve};
 use super::past::{BACK_PER_S, ChainPast, NodePast};
 use crate::forces::decay::decay;
 use crate::forces::element::passes;
@@ -38,9 +38,23 @@ pub(super) struct Straps<S> {
 
 /// Straps at one instant.
 pub(super) struct Taut<'a, S: Scalar> {
-    pub(super) runs: [Run<S>; MOST_NODES],
+    pub(super) runs: &'a [Run<S>],
+    pub(super) straps: &'a [Tense<S>],
     pub(super) feed: Feed<'a, S>,
     pub(super) solved: Solved<S>,
+}
+
+/// Room for the straps of a chain.
+#[derive(Clone, Debug)]
+pub(super) struct Web<S> {
+    runs: [Run<S>; MOST_NODES],
+    straps: [Tense<S>; MOST_NODES],
+}
+
+impl<S: Scalar> Web<S> {
+    pub(super) fn new() -> Self {
+        Web { runs: [Run::none(); MOST_NODES], straps: [Tense::none(); MOST_NODES] }
+    }
 }
 
 /// Webbing geometry: lengths of the straps, θ at the start of each, and distance carried by a sphere's surface beyond
@@ -58,6 +72,13 @@ impl<S: Scalar> Course<S> {
         let none = [S::zero(); MOST_NODES];
         Course { lengths: none, turns: none, carried: none }
     }
+
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        for numbers in [&mut self.lengths, &mut self.turns, &mut self.carried] {
+            numbers.fill(S::zero());
+        }
+    }
 }
 
 impl<S: Scalar> Taut<'_, S> {
@@ -65,7 +86,7 @@ impl<S: Scalar> Taut<'_, S> {
     /// P of that per unstretched length, minus the difference of tensions times its length.
     #[inline(always)]
     fn stretched(&self, strap: usize, more: S) -> S {
-        let (from, to) = (&self.solved.straps[strap - 1], &self.solved.straps[strap]);
+        let (from, to) = (&self.straps[strap - 1], &self.straps[strap]);
         let length = self.runs[strap - 1].length;
         self.runs[strap].carried * (more * from.unstretched - (to.tension - from.tension) * length)
     }
@@ -224,24 +245,19 @@ impl<S: Copy> Straps<S> {
 }
 
 impl<S: Scalar> Straps<S> {
-    /// The straps at one instant, from their stored state.
+    /// The straps at one instant, from their stored state, in this room.
     #[inline(always)]
-    pub(super) fn taut(&self, time: S, course: &Course<S>, past: &ChainPast<S>) -> Taut<'_, S> {
-        let o = S::zero();
-        let none = Run {
-            length: o,
-            before: o,
-            greatest: o,
-            set: o,
-            grip: o,
-            hold: S::one(),
-            play: o,
-            carried: o,
-            beside: [o; 2],
-        };
-        let mut runs = [none; MOST_NODES];
+    pub(super) fn taut<'a>(
+        &'a self,
+        time: S,
+        course: &Course<S>,
+        past: &ChainPast<S>,
+        web: &'a mut Web<S>,
+    ) -> Taut<'a, S> {
+        let Web { runs, straps } = web;
         for (strap, &node) in self.starts.iter().enumerate() {
             let (own, run) = (&past.nodes[node], &mut runs[strap]);
+            *run = Run::none();
             run.length = course.lengths[strap] + self.webbing.curve.unknown(own.greatest);
             run.before = own.unstretched;
             (run.greatest, run.play) = (own.greatest, own.play);
@@ -254,18 +270,18 @@ impl<S: Scalar> Straps<S> {
             }
         }
         let feed = self.device.feed(time, &past.device, past.nodes[0].fed);
-        let own = &runs[..self.starts.len()];
-        let is_free = past.device.free.gt(o);
-        let solved = solve(&self.webbing, &feed, own, past.device.solution, is_free);
-        if let Some((mask, passed)) = self.device.bounded(&feed, &past.device, time, solved.straps[0].fed)
+        let (runs, straps) = (&runs[..self.starts.len()], &mut straps[..self.starts.len()]);
+        let is_free = past.device.free.gt(S::zero());
+        let solved = solve(&self.webbing, &feed, runs, past.device.solution, is_free, straps);
+        if let Some((mask, passed)) = self.device.bounded(&feed, &past.device, time, straps[0].fed)
             && S::any(mask)
         {
-            let start = S::select(mask, solved.straps[0].tension, past.device.solution);
+            let start = S::select(mask, straps[0].tension, past.device.solution);
             let feed = feed.given(mask, passed);
-            let solved = solve(&self.webbing, &feed, own, start, is_free);
-            return Taut { runs, feed, solved };
+            let solved = solve(&self.webbing, &feed, runs, start, is_free, straps);
+            return Taut { runs, straps, feed, solved };
         }
-        Taut { runs, feed, solved }
+        Taut { runs, straps, feed, solved }
     }
 
     /// e of a strap's viscous element.
@@ -273,7 +289,7 @@ impl<S: Scalar> Straps<S> {
     fn viscous(&self, taut: &Taut<'_, S>, strap: usize) -> S {
         let Some([stiffness, _]) = self.webbing.viscous else { return S::zero() };
         let [kappa, rest] = taut.runs[strap].beside;
-        kappa / stiffness * (taut.solved.straps[strap].strain - rest)
+        kappa / stiffness * (taut.straps[strap].strain - rest)
     }
 
     /// Recoverable energy of a metre of unstretched webbing of a strap, N.
@@ -281,13 +297,13 @@ impl<S: Scalar> Straps<S> {
     fn stored_per_metre(&self, taut: &Taut<'_, S>, strap: usize) -> S {
         let e = self.viscous(taut, strap);
         let [stiffness, _] = self.webbing.viscous.unwrap_or([S::zero(); 2]);
-        self.webbing.curve.returned_to(taut.solved.straps[strap].loading)[1] + stiffness * e * e * S::of(0.5)
+        self.webbing.curve.returned_to(taut.straps[strap].loading)[1] + stiffness * e * e * S::of(0.5)
     }
 
     /// Recoverable energy of a strap, J; the first includes the limiter.
     #[inline(always)]
     pub(super) fn stored(&self, taut: &Taut<'_, S>, strap: usize) -> S {
-        let webbing = taut.solved.straps[strap].unstretched * self.stored_per_metre(taut, strap);
+        let webbing = taut.straps[strap].unstretched * self.stored_per_metre(taut, strap);
         if strap == 0 { webbing + self.device.stored(&taut.feed, taut.feed.delta(taut.solved.x)) } else { webbing }
     }
 
@@ -307,7 +323,7 @@ impl<S: Scalar> Straps<S> {
     pub(super) fn passing(&self, taut: &Taut<'_, S>, past: &ChainPast<S>) -> S {
         let (mut sum, mut before) = (S::zero(), S::zero());
         for (strap, &node) in self.starts.iter().enumerate() {
-            let tense = &taut.solved.straps[strap];
+            let tense = &taut.straps[strap];
             let both = self.carried(taut, strap) + past.nodes[node].carried;
             sum += if strap > 0 { S::of(0.5) * (both - before) * tense.fed } else { S::zero() };
             before = both;
@@ -318,14 +334,14 @@ impl<S: Scalar> Straps<S> {
     /// P of a strap.
     #[inline(always)]
     fn carried(&self, taut: &Taut<'_, S>, strap: usize) -> S {
-        let tense = &taut.solved.straps[strap];
+        let tense = &taut.straps[strap];
         tense.tension * (S::one() + tense.strain) - self.stored_per_metre(taut, strap)
     }
 
     /// Stores in `next` an accepted step that began with `past`.
     #[inline(always)]
     pub(super) fn commit(&self, time: S, taut: &Taut<'_, S>, past: &ChainPast<S>, next: &mut ChainPast<S>) {
-        let (straps, half) = (&taut.solved.straps, S::of(0.5));
+        let (straps, half) = (taut.straps, S::of(0.5));
         let (mut before, mut pulled, mut greatest) = (S::zero(), S::zero(), S::zero());
         for (strap, &node) in self.starts.iter().enumerate() {
             let (tense, own) = (&straps[strap], &mut next.nodes[node]);

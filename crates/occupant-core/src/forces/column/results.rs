@@ -144,9 +144,7 @@ impl<const TURNS: bool> Reported for Giving<TURNS> {
 
     #[inline(always)]
     fn track<S: Scalar>(c: &ColumnAction<S>, tracker: &mut impl Tracker<S>) {
-        for number in [c.stroke, c.force, c.taken, c.bottoms, c.residual] {
-            tracker.number(number);
-        }
+        tracker.numbers(&[c.stroke, c.force, c.taken, c.bottoms, c.residual]);
     }
 
     fn keep(past: &mut Vec<ColumnPast<f64>>, like: Option<&[ColumnPast<f64>]>, file: &mut dyn Archive) {

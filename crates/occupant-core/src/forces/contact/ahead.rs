@@ -105,11 +105,18 @@ impl<S: Scalar> ContactSystem<S> {
     #[inline(always)]
     pub(super) fn reach(&self, at: &Instant<'_, S>) -> S {
         let (mut squared, mut of_frames) = (S::zero(), S::zero());
+        // many in succession are on one segment, or of one frame
+        let mut last = usize::MAX;
         for site in at.spheres {
-            squared = squared.max(at.k.joint_velocity[site.segment].norm_squared());
+            if std::mem::replace(&mut last, site.segment) != site.segment {
+                squared = squared.max(at.k.joint_velocity[site.segment].norm_squared());
+            }
         }
+        last = usize::MAX;
         for group in self.groups.iter().chain(&self.solids.groups) {
-            of_frames = of_frames.max(at.frame(group.frame).velocity.norm_squared());
+            if std::mem::replace(&mut last, group.frame) != group.frame {
+                of_frames = of_frames.max(at.frame(group.frame).velocity.norm_squared());
+            }
         }
         if !S::any(squared.max(of_frames).gt(S::of(FAST_M_S * FAST_M_S))) {
             return self.reach_of_a_step;

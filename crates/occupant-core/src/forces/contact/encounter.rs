@@ -69,11 +69,10 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     pub(super) fn keeps_off(&self, i: usize, enough: S, past: &[PairHistory<S>]) -> Option<S> {
         let solids = &self.contacts.solids;
         let j = i - self.contacts.pairs.len();
-        let off = solids.at_least(j, self.centre_f, self.site.radius);
-        if S::any(!enough.lt(off)) || S::any(!solids.laws[j].stays(&past[i]) | solids.remember(j, past)) {
+        if S::any(!solids.laws[j].stays(&past[i]) | solids.remember(j, past)) {
             return None;
         }
-        Some(off)
+        solids.farther(j, self.centre_f, self.site.radius, enough)
     }
 
     /// Adds the forces of pair `i`, of faces or of solids, in the lanes of `near`; returns the deformation. At an

@@ -108,6 +108,20 @@ impl<S: Scalar> Outline<S> {
     }
 }
 
+/// Distance beyond the line of a side from which a point is outside whatever the rounding, m.
+const OUTSIDE_M: f64 = 1e-9;
+
+impl Outline<f64> {
+    /// Whether d = 0 of `point`.
+    pub(crate) fn holds(&self, point: V2<f64>) -> bool {
+        let is_outside = match self {
+            Outline::Polygon(edges) => edges.iter().any(|edge| edge.outward(point) > OUTSIDE_M),
+            Outline::Disc { .. } | Outline::Unbounded => false,
+        };
+        !is_outside && self.offset(point).distance == 0.0
+    }
+}
+
 /// The offset with ê only where d > 0.
 #[inline(always)]
 fn outside<S: Scalar>(distance: S, away: V2<S>) -> Offset<S> {
@@ -155,5 +169,31 @@ impl<S: Scalar> Edge<S> {
         let (u, v) = (p.u - self.start.u, p.v - self.start.v);
         let along = (u * self.direction.u + v * self.direction.v).max(S::zero()).min(self.length);
         V2 { u: u - along * self.direction.u, v: v - along * self.direction.v }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outline_holds_the_points_that_are_not_beside_it() {
+        let roof = [[0.0, 0.0], [0.9, 0.1], [1.1, 0.7], [0.3, 0.8]];
+        let disc = Outline::Disc { centre: V2 { u: 0.5, v: 0.5 }, radius: 0.4 };
+        for outline in [Outline::polygon(&roof), disc, Outline::Unbounded] {
+            let mut held = 0;
+            let grid = (-20..=40).flat_map(|i| (-20..=40).map(move |j| [0.04 * f64::from(i), 0.04 * f64::from(j)]));
+            let sides = (0..4).flat_map(|i| (0..=20).map(move |j| (i, f64::from(j) / 20.0)));
+            let on_sides = sides.flat_map(|(i, part)| {
+                let ([u, v], [u2, v2]) = (roof[i], roof[(i + 1) % 4]);
+                [0.0, 1e-16, 1e-12, 1e-8].map(|off| [u + part * (u2 - u) + off, v + part * (v2 - v) - off])
+            });
+            for [u, v] in grid.chain(on_sides) {
+                let is_held = outline.holds(V2 { u, v });
+                assert_eq!(is_held, outline.offset(V2 { u, v }).distance == 0.0, "{u} {v}");
+                held += u32::from(is_held);
+            }
+            assert!(held > 200, "{held}");
+        }
     }
 }

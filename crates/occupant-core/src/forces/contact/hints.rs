@@ -12,8 +12,12 @@ use crate::forces::contact::{ContactSystem, Group, OPEN, PASSED, PairHistory};
 use crate::forces::element::Hints;
 use crate::forces::marks::Marks;
 use crate::forces::pace::Pace;
+#[cfg(any(target_arch = "x86_64", test))]
+use crate::motion::lanes::Lanes;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
+#[cfg(any(target_arch = "x86_64", test))]
+use crate::motion::vector::v3;
 
 /// Distances are trusted to this, m.
 const MARGIN_M: f64 = 1e-9;
@@ -163,21 +167,17 @@ impl<S: Scalar> ContactHints<S> {
         start..start + self.looks[g].near
     }
 
+    /// No pair of group `g` is near until the next commit.
+    #[inline(always)]
+    pub(super) fn has_none_near(&mut self, g: usize) {
+        self.looks[g].near = 0;
+    }
+
     /// Whether pair `i` of `group`, number `g`, may touch at the next commit; of what the last commit has not seen all may.
     #[inline(always)]
     pub(super) fn may_touch(&self, g: usize, group: &Group, i: usize) -> bool {
         let near = &self.near[self.near_of(g, group)];
         near.iter().any(|near| near.pair as usize == i) || S::any(self.looks[g].least.lt(S::zero()))
-    }
-
-    /// Makes the next commit look at all pairs of the group of pair `i`. Nothing is skipped of what is numbered behind them.
-    #[cfg(any(target_arch = "x86_64", test))]
-    pub(in crate::forces) fn look_again_at(&mut self, i: usize) {
-        self.pace = Pace::any();
-        if i < self.watched.len() {
-            let g = self.looks.partition_point(|look| look.first <= i) - 1;
-            self.looks[g].least = -S::one();
-        }
     }
 
     /// Makes the watched pairs of `group`, number `g`, those that an evaluation looks at; returns how many there are.
@@ -195,6 +195,32 @@ impl<S: Scalar> ContactHints<S> {
         let look = &self.looks[g];
         let way = (look.least - reach).max(S::zero());
         S::any(!(centre - look.centre).norm_squared().lt(way * way))
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", test))]
+impl ContactHints<f64> {
+    /// Watches what `lanes`, of like elements, watch; with what they know of lane `i`. Of what is near any lane all counts as
+    /// near.
+    pub(in crate::forces) fn watch_as<L: Lanes>(&mut self, lanes: &ContactHints<L>, i: usize) {
+        for (own, look) in self.looks.iter_mut().zip(&lanes.looks) {
+            let Look { first, watched, near, centre, least, reach } = look;
+            *own = Look {
+                first: *first,
+                watched: *watched,
+                near: *near,
+                centre: v3(centre.x.lane(i), centre.y.lane(i), centre.z.lane(i)),
+                least: least.lane(i),
+                reach: reach.lane(i),
+            };
+            for place in *first..first + watched {
+                self.watched[place] = lanes.watched[place];
+            }
+            for place in *first..first + near {
+                self.near[place] = Near::always(lanes.near[place].pair);
+            }
+        }
+        self.pace = Pace::any();
     }
 }
 

@@ -289,6 +289,10 @@ fn meet_all<S: Scalar, const SOLID: bool>(
         return;
     }
     let mut sphere = Sphere::new(law, group, at);
+    // of most spheres nothing is watched; and no sphere comes farther than `reach`
+    if at.accepted && hints.watched_of(g, group).is_empty() && !hints.must_look(g, sphere.centre_f, reach) {
+        return hints.has_none_near(g);
+    }
     let power = load.power_at(at.spheres[group.sphere].segment);
     let way = if at.accepted { Some(sphere.way(law.longest_step())) } else { None };
     let reach = if let Some(way) = &way { law.reach_of(way, reach) } else { reach };
@@ -392,8 +396,12 @@ impl<S: Scalar> ContactSystem<S> {
 impl ContactSystem<f64> {
     /// What each sphere feels of a touch: one, or two of the body that touch each other.
     pub(crate) fn sides(&self, touch: &Touch<f64>) -> impl Iterator<Item = Touch<f64>> + use<> {
-        let other = self.own.get(touch.pair).map(|pair| touch.mirrored(pair.spheres));
-        [*touch].into_iter().chain(other)
+        [*touch].into_iter().chain(self.other_side(touch))
+    }
+
+    /// What the other of two spheres of the body feels of their touch.
+    pub(crate) fn other_side(&self, touch: &Touch<f64>) -> Option<Touch<f64>> {
+        self.own.get(touch.pair).map(|pair| touch.mirrored(pair.spheres))
     }
 
     /// Whether a touch is one of two spheres.

@@ -49,6 +49,11 @@ impl Bounds {
         sides.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NAN, 0, 0))
     }
 
+    /// Whether a point is farther than `by_m` beyond any side.
+    pub(crate) fn is_beyond(&self, point: &Point3<f64>, by_m: f64) -> bool {
+        (0..3).any(|i| self.least[i] - point[i] > by_m || point[i] - self.most[i] > by_m)
+    }
+
     /// How far a point is from it, m.
     pub(crate) fn distance_m(&self, point: &Point3<f64>) -> f64 {
         (point.coords.sup(&self.least).inf(&self.most) - point.coords).norm()
@@ -125,6 +130,18 @@ mod tests {
         let expected: Vec<_> = all.filter(|[i, j]| (i + j) % 3 != 0 && boxes[*i].is_near(&boxes[*j], 0.01)).collect();
         assert!(found.is_complete && expected.len() > 100);
         assert_eq!(found.pairs, expected);
+    }
+
+    #[test]
+    fn a_point_is_beyond_a_box_where_it_is_beyond_a_side() {
+        let room = Bounds::ball(&Point3::new(0.5, 1.5, 0.5), 0.4);
+        let beyond = boxes(300, 0.2).into_iter().map(|own| {
+            let point = Point3::from(0.5 * (own.least + own.most));
+            let is_beyond = room.is_beyond(&point, 0.1);
+            assert_eq!(is_beyond, room.beyond_m(&point).0 > 0.1, "{point}");
+            usize::from(is_beyond)
+        });
+        assert!((20..280).contains(&beyond.sum::<usize>()));
     }
 
     #[test]

@@ -216,6 +216,13 @@ impl<S: Scalar> ContactSystem<S> {
     }
 }
 
+impl Pair<f64> {
+    /// Whether the projection of a centre is on a part, in the frame of the face.
+    pub(crate) fn is_over(&self, part: &Part<f64>, centre: V3<f64>) -> bool {
+        part.outline.holds(V2 { u: self.u.dot(centre), v: self.v.dot(centre) })
+    }
+}
+
 impl<S: Scalar> Pair<S> {
     /// How far the projection of a centre is from a part, in the frame of the face, m.
     pub(crate) fn beside(&self, part: &Part<S>, centre: V3<S>) -> S {

@@ -140,8 +140,6 @@ impl Reported for JointMoments {
 
     #[inline(always)]
     fn track<S: Scalar>(joint: &JointAction<S>, tracker: &mut impl Tracker<S>) {
-        for number in joint.beyond {
-            tracker.number(number);
-        }
+        tracker.numbers(&joint.beyond);
     }
 }

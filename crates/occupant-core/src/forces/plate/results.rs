@@ -69,7 +69,7 @@ impl Reported for Plates {
 
     #[inline(always)]
     fn track<S: Scalar>(p: &PlateAction<S>, tracker: &mut impl Tracker<S>) {
-        [p.deflection, p.speed, p.force, p.deep].into_iter().for_each(|number| tracker.number(number));
+        tracker.numbers(&[p.deflection, p.speed, p.force, p.deep]);
     }
 
     fn keep(past: &mut Vec<BandPast<f64>>, like: Option<&[BandPast<f64>]>, file: &mut dyn Archive) {

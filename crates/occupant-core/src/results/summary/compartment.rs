@@ -151,10 +151,10 @@ impl Compartment {
         let mut all_out = !self.spheres.is_empty();
         for ((i, _), exit) in self.spheres.iter().zip(&mut self.exits) {
             let centre_m = sample.sphere_centre_m(*i);
-            let (beyond_m, axis, end) = room.beyond_m(&centre_m);
-            let is_out = beyond_m > sample.model.body().spheres[*i].radius_m;
+            let is_out = room.is_beyond(&centre_m, sample.model.body().spheres[*i].radius_m);
             all_out &= is_out;
             if is_out {
+                let (_, axis, end) = room.beyond_m(&centre_m);
                 exit.get_or_insert((sample.time_s, Side::ALL[axis][end], centre_m));
             }
         }

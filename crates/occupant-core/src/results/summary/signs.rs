@@ -158,15 +158,11 @@ impl Signs {
             self.see_joints(sample);
         }
         let contacts = &model.system().forces.contacts;
-        for touch in sample.touches() {
-            let surface = contacts.surface(touch.pair, touch.part as usize);
-            if surface < model.faces().len() {
-                self.deep[touch.sphere].see(touch.depth, surface, time_s);
-            } else {
-                self.see_solid(sample, &touch, surface);
-            }
-        }
         for touch in &sample.actions.contacts {
+            self.see_depth(sample, touch);
+            if let Some(other) = contacts.other_side(touch) {
+                self.see_depth(sample, &other);
+            }
             self.see_last_point(sample, touch);
         }
         self.see_chains(sample);
@@ -210,6 +206,16 @@ impl Signs {
         signs.strokes.see_steps(elements.of("columns", peaks).chain(elements.of("hinges", peaks)));
         signs.strokes.see_plates(elements.of("plates", peaks));
         signs
+    }
+
+    /// Checks how deep a sphere is in a surface or a solid.
+    fn see_depth(&mut self, sample: &Sample<'_>, touch: &Touch<f64>) {
+        let surface = sample.model.system().forces.contacts.surface(touch.pair, touch.part as usize);
+        if surface < sample.model.faces().len() {
+            self.deep[touch.sphere].see(touch.depth, surface, sample.time_s);
+        } else {
+            self.see_solid(sample, touch, surface);
+        }
     }
 
     /// Checks a sphere in a solid.
@@ -313,12 +319,13 @@ impl Signs {
             let Some(ends) = limb.filter(|_| !begun[1]) else { continue };
             let Some(place) = crossing(plane, sphere.radius_m, ends) else { continue };
             let pair = &contacts.pairs[i];
-            for part in pair.parts.iter().filter(|part| pair.beside(part, place) == 0.0) {
+            for part in pair.parts.iter().filter(|part| pair.is_over(part, place)) {
                 if !self.is_begun {
                     begun[1] = true;
                 } else if self.cuts[segment].may_see_first(part.surface) {
                     let centres = Centres::of(&mut self.centres, sample, group.frame);
-                    let clear_m = clear_m(sample.model.body(), centres, place);
+                    let most_m = self.cuts[segment].most.value;
+                    let clear_m = clear_m(sample.model.body(), centres, (place, group.sphere), most_m);
                     self.cuts[segment].see_first(clear_m, part.surface, sample.time_s);
                 }
             }
@@ -529,9 +536,16 @@ fn crossing(plane: &Plane<f64>, radius_m: f64, [from, to]: [V3<f64>; 2]) -> Opti
     (begin * end < 0.0).then(|| from + (to - from) * (begin / (begin - end)))
 }
 
-/// Distance of a point from the nearest sphere of the body, m.
-fn clear_m(body: &Body, centres: &[V3<f64>], place: V3<f64>) -> f64 {
-    let spheres = body.spheres.iter().zip(centres);
-    let away = spheres.map(|(sphere, centre)| (*centre - place).norm_squared().sqrt() - sphere.radius_m);
-    away.fold(f64::INFINITY, f64::min)
+/// Distance of a point from the nearest sphere of the body, m; of any sphere no farther than `most_m`, if there is one,
+/// looked for from sphere `first` on.
+fn clear_m(body: &Body, centres: &[V3<f64>], (place, first): (V3<f64>, usize), most_m: f64) -> f64 {
+    let spheres = || body.spheres.iter().zip(centres);
+    let mut clear_m = f64::INFINITY;
+    for (sphere, centre) in spheres().skip(first).chain(spheres().take(first)) {
+        clear_m = clear_m.min((*centre - place).norm_squared().sqrt() - sphere.radius_m);
+        if clear_m <= most_m {
+            break;
+        }
+    }
+    clear_m
 }

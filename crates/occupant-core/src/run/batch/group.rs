@@ -223,11 +223,18 @@ impl<L: Machine> Group<L> {
             let past = &bench.history.memory.contacts;
             place.take_step(|pair| past[pair].phase.lane(i));
         }
-        if finite && !place.is_at_output() && place.run.is_within_allowance() {
+        if finite && place.run.is_within_allowance() {
             place.run.accept_time(place.step);
-            place.latest = Some(place.step);
-            self.places[i] = Some(place);
-            return ControlFlow::Continue(());
+            if !place.is_at_output() {
+                place.latest = Some(place.step);
+                self.places[i] = Some(place);
+                return ControlFlow::Continue(());
+            }
+            if let Some(bench) = &self.bench {
+                each(&mut place.run.state, &bench.state, |x, lanes| *x = lanes.lane(i));
+            }
+            let next = self.reach_output(i, &mut place, jobs);
+            return self.go_on_or_end(i, place, next, jobs);
         }
         let state = self.lane_state(i, &place.run);
         let next = match place.run.accept(&place.model, state, place.step) {
@@ -242,19 +249,22 @@ impl<L: Machine> Group<L> {
                 place.differs_anywhere();
                 Next::ended(Status::Failed(broken(&place.model, &failed, place.step, &state)))
             }
-            Ok(()) => {
-                self.fetch_history(i, &mut place);
-                self.fetch_rear(i, &mut place.run, place.step);
-                let next = place.output(jobs.recorder(i));
-                // one commit, but where steps can be repeated
-                match place.run.rear {
-                    None => place.behind.add(place.run.history.changed()),
-                    Some(_) => place.differs_anywhere(),
-                }
-                next
-            }
+            Ok(()) => self.reach_output(i, &mut place, jobs),
         };
         self.go_on_or_end(i, place, next, jobs)
+    }
+
+    /// Records the output that run `i` has reached with the present step, whose state it has.
+    fn reach_output(&mut self, i: usize, place: &mut Place, jobs: &mut dyn Jobs) -> Next {
+        self.fetch_history(i, place);
+        self.fetch_rear(i, &mut place.run, place.step);
+        let next = place.output(jobs.recorder(i));
+        // one commit, but where steps can be repeated
+        match place.run.rear {
+            None => place.behind.add(place.run.history.changed()),
+            Some(_) => place.differs_anywhere(),
+        }
+        next
     }
 
     /// Puts a run back at its index, or ends it.
@@ -295,13 +305,14 @@ impl<L: Machine> Group<L> {
         state
     }
 
-    /// Updates the history of run `i`. Pairs far from contact stay skipped in groups in which no contact has begun or ended
-    /// meanwhile.
+    /// Updates the history of run `i`.
     fn fetch_history(&mut self, i: usize, place: &mut Place) {
         let (Some(bench), Place { run, behind, .. }) = (&mut self.bench, place) else { return };
-        let lanes = &mut bench.history.memory;
-        run.history.look_again_where(behind, |pair| lanes.contacts[pair].phase.lane(i));
-        lanes.each_marked(&mut run.history.memory, behind, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+        run.history.watch_as(&bench.history, i);
+        bench
+            .history
+            .memory
+            .each_marked(&mut run.history.memory, behind, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
         behind.clear();
     }
 

@@ -226,7 +226,9 @@ impl<'a> Witness<'a> {
     #[inline(never)]
     pub(super) fn feel<L: Lanes>(&mut self, of: usize, reading: &Reading<L>) {
         for (i, _, felt) in self.notes() {
-            felt.readings[of] = reading.map(|number| number.lane(i));
+            for (to, number) in felt.readings[of].iter_mut().zip(reading) {
+                *to = number.lane(i);
+            }
         }
     }
 }
@@ -235,9 +237,7 @@ impl<'a> Witness<'a> {
 impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
     #[inline(never)]
     fn number(&mut self, number: L) {
-        for (i, _, felt) in self.notes() {
-            felt.numbers.push(number.lane(i));
-        }
+        self.numbers(&[number]);
     }
 
     #[inline(never)]
@@ -249,7 +249,8 @@ impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
 
     #[inline(never)]
     fn touch(&mut self, touch: &Touch<L>) {
-        let vector = |v: V3<L>, i: usize| v3(v.x.lane(i), v.y.lane(i), v.z.lane(i));
+        // by reference: a copy of all lanes for each one is what this took most time for
+        let vector = |v: &V3<L>, i: usize| v3(v.x.lane(i), v.y.lane(i), v.z.lane(i));
         for (i, met, _) in self.notes() {
             if touch.weight.lane(i) > 0.0 {
                 let meeting = Meeting {
@@ -258,10 +259,10 @@ impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
                     part: touch.part.lane(i) as usize,
                     closing_m_s: touch.closing.lane(i),
                     normal_force_n: touch.normal_force.lane(i),
-                    velocity_m_s: vector(touch.velocity, i),
+                    velocity_m_s: vector(&touch.velocity, i),
                     depth_m: touch.depth.lane(i),
-                    force_n: vector(touch.force, i),
-                    normal: vector(touch.normal, i),
+                    force_n: vector(&touch.force, i),
+                    normal: vector(&touch.normal, i),
                 };
                 met.push(Touching { meeting });
             }

@@ -1,13 +1,17 @@
 //! The runs side by side in lanes of an array, which every processor has.
 
 use super::*;
+use crate::forces::History;
+use crate::kernel::Situation;
 use crate::model::setup::{Integrator, Setup};
+use crate::motion::integrate::rk4::{Stage, Stages};
 use crate::motion::lanes::Plain;
 use crate::results::recorder::Watch;
 use crate::results::sample::Sample;
 use crate::run::simulate::simulate;
 use crate::tests::case_in_code::{cart, stop_from};
 use crate::tests::three_point;
+use crate::vehicle::PathCursor;
 
 fn model(mph: f64) -> Model {
     stopped(cart().unwrap(), mph)
@@ -66,6 +70,33 @@ fn so_have_runs_under_error_control() {
         stopped(setup, mph)
     };
     have_the_bits_of_each_alone([25.0, 30.0, 35.0, 40.0, 28.0].map(belted).into());
+}
+
+/// A cart whose commits look at all pairs of spheres and faces moves as one whose commits skip those that are far away.
+#[test]
+fn pairs_that_are_skipped_change_nothing() {
+    let model = model(20.0);
+    let (system, start, h) = (model.system(), model.start(), 1e-4);
+    let run = |looks: bool| {
+        let mut history = History::new(&system.forces, start.history.memory.clone());
+        let (mut state, mut stages, mut cursor) =
+            (start.state, Stages::new(start.state.shape()), PathCursor::default());
+        for step in 0..700 {
+            if looks {
+                history.look_again();
+            }
+            let time_s = h * f64::from(step);
+            state = *stages.step(&state, h, |stage, state, rate| {
+                let at_s = time_s + 0.5 * h * f64::from(stage as u8);
+                let frames = model.frames(at_s, time_s + 0.5 * h, &mut cursor);
+                let situation = Situation { state, frames: &frames, accepted: stage == Stage::Start };
+                *rate = system.rate(situation, &mut history, &mut ());
+            });
+        }
+        format!("{state:?} {:?}", history.memory)
+    };
+    let [skips, looks] = [false, true].map(run);
+    assert!(skips == looks && skips != format!("{:?} {:?}", start.state, start.history.memory));
 }
 
 #[test]

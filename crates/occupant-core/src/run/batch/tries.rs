@@ -119,7 +119,7 @@ impl<L: Machine> Group<L> {
             if !std::mem::replace(&mut is_fetched, true) {
                 place.fetch_step(i, ahead);
             }
-            place.show(target_s);
+            place.show(target_s, i, ahead);
             if let Next::Ends(status) = place.output(jobs.recorder(i))
                 && let Some(place) = self.leave(i)
             {
@@ -269,13 +269,14 @@ impl Place {
         front.ahead.forget_marks();
     }
 
-    /// Moves the run to a time within its latest step.
-    fn show(&mut self, time_s: f64) {
+    /// Moves the run to a time within its latest step, that of lane `i`.
+    fn show<L: Lanes>(&mut self, time_s: f64, i: usize, ahead: &Ahead<L>) {
         let run = &mut self.run;
         if let Some(front) = &run.front {
             run.state = front.state_at(time_s);
             self.unseen.add(run.history.changed());
             run.history.remember(&front.ahead.before.memory, &self.unseen);
+            run.history.watch_as(&ahead.before, i);
             self.unseen.clear();
         }
         run.time_s = time_s;

@@ -116,7 +116,9 @@ impl Rig {
         let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted };
         let (mut load, actions) = (Load::zero(&Layout::of(&TTI12), []), &mut self.actions);
         actions.clear();
-        Bags::apply(&self.law, &at, &mut self.past, &mut (), &mut load, &mut |action| actions.push(*action));
+        Bags::apply(&self.law, &at, &mut self.past, &mut Bags::hints(&self.law), &mut load, &mut |action| {
+            actions.push(*action);
+        });
         let acceleration = self.mass.map_or(0.0, |mass| load.wrench[0].force.z / mass - self.gravity);
         [place[1], acceleration].into_iter().chain(load.own[..own.len()].iter().copied()).collect()
     }

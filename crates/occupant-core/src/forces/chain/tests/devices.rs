@@ -2,6 +2,7 @@
 
 use super::super::data::*;
 use super::super::device::Phase;
+use super::super::tension::Web;
 use super::super::{Chains, MOST_NODES};
 use super::{Rig, at, chain, fixed, limiter, reel, webbing};
 use crate::body::Body;
@@ -153,8 +154,9 @@ fn tensions_that_are_not_found_are_told() {
     let data = chain(&[0.2], webbing(1.0), fixed(), Rest::Slack(0.0));
     let mut rig = Rig::new(&data, &[0.5, 0.5], &[1.0]);
     rig.course.lengths[1] = f64::NAN;
-    let taut = rig.straps.taut(1e-4, &rig.course, &rig.past);
-    assert!(taut.solved.unsolved > 0.0 && taut.solved.straps[0].tension.is_nan());
+    let mut web = Web::new();
+    let taut = rig.straps.taut(1e-4, &rig.course, &rig.past, &mut web);
+    assert!(taut.solved.unsolved > 0.0 && taut.straps[0].tension.is_nan());
     rig.past.device.unsolved = 3e-4;
     let law = Chains::new(std::slice::from_ref(&data), &Body::male50());
     let why = Chains::failure(&[data], &law, &[rig.past]).unwrap();

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::super::data::*;
-use super::super::law::{Lies, Now};
+use super::super::law::{Now, Room};
 use super::super::past::ChainPast;
 use super::super::{ChainLaw, Chains};
 use super::{chain, fixed};
@@ -64,13 +64,13 @@ impl Drum {
     }
 
     fn now<T>(&self, time: f64, posture: Posture, look: impl FnOnce(&Now<'_, f64>) -> T) -> T {
-        at(time, posture, |at| look(&self.law.now(at, &self.past, &mut Lies::nowhere(), false)))
+        at(time, posture, |at| look(&self.law.now(at, &self.past, &mut Room::new(), false)))
     }
 
     /// Tensions, and the moment on the drum about y.
     fn pulls(&self, time: f64, posture: Posture) -> ([f64; 2], f64) {
         self.now(time, posture, |now| {
-            let [a, b, ..] = now.taut.solved.straps;
+            let [a, b, ..] = now.taut.straps else { unreachable!() };
             ([a.tension, b.tension], self.law.couple(now, 1, 1).y)
         })
     }
@@ -84,7 +84,8 @@ impl Drum {
 /// An accepted step.
 fn commit(law: &ChainLaw<f64>, at: &Instant<'_, f64>, past: &mut ChainPast<f64>) {
     let (at, mut load) = (Instant { accepted: true, ..*at }, Load::zero(&Layout::of(&TTI12), []));
-    Chains::apply(&vec![law.clone()], &at, std::slice::from_mut(past), &mut (), &mut load, &mut |_| {});
+    let (law, mut room) = (vec![law.clone()], Some(Box::new(Room::new())));
+    Chains::apply(&law, &at, std::slice::from_mut(past), &mut room, &mut load, &mut |_| {});
 }
 
 fn at<T>(time: f64, posture: Posture, f: impl FnOnce(&Instant<'_, f64>) -> T) -> T {
@@ -214,7 +215,8 @@ fn tensions<S: Scalar>(law: &ChainLaw<S>, past: &ChainPast<S>, turned: S) -> [S;
     let state = State::zero(Shape::new(0, 0));
     let frames = Frames::still(S::of(1.0));
     let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted: false };
-    let [a, b, ..] = law.now(&at, past, &mut Lies::nowhere(), false).taut.solved.straps;
+    let mut room = Room::new();
+    let [a, b, ..] = law.now(&at, past, &mut room, false).taut.straps else { unreachable!() };
     [a.tension, b.tension]
 }
 
@@ -268,12 +270,12 @@ fn a_sphere_that_comes_on_beside_another_changes_no_tension() {
         // up and down again
         let height = 0.002 + 0.1 * (1.0 - (f64::from(i) / 2000.0 - 1.0).abs());
         look(1e-4 * f64::from(i), height, &mut |at| {
-            let (mut lies, was) = (Lies::nowhere(), past);
-            let before = law.now(at, &was, &mut lies, false).taut;
+            let (mut room, was) = (Room::new(), past);
+            let before = law.now(at, &was, &mut room, false).taut;
             commit(&law, at, &mut past);
-            let mut lies = Lies::nowhere();
-            let after = law.now(at, &past, &mut lies, false).taut;
-            let [from, to] = [&before, &after].map(|taut| taut.solved.straps[0].tension);
+            let mut room = Room::new();
+            let after = law.now(at, &past, &mut room, false).taut;
+            let [from, to] = [&before, &after].map(|taut| taut.straps[0].tension);
             assert!((to / from - 1.0).abs() < 1e-12, "{i}: {from} {to}");
             changes += u32::from(was.nodes[2].on != past.nodes[2].on);
             let taken = past.nodes[0].unstretched - was.nodes[0].unstretched;

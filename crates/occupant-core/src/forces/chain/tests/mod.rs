@@ -10,7 +10,7 @@ use nalgebra::Point3;
 use super::MOST_NODES;
 use super::data::*;
 use super::past::ChainPast;
-use super::tension::{Course, Straps};
+use super::tension::{Course, Straps, Taut, Web};
 use crate::forces::contact::surface::Frame;
 use crate::forces::function::Function;
 
@@ -77,6 +77,11 @@ struct Rig {
     pulls: [f64; MOST_NODES],
 }
 
+/// Tension of each strap; 0 beyond the last.
+fn tensions(taut: &Taut<'_, f64>) -> [f64; MOST_NODES] {
+    std::array::from_fn(|i| taut.straps.get(i).map_or(0.0, |strap| strap.tension))
+}
+
 impl Rig {
     fn new(chain: &Chain, lengths: &[f64], turns: &[f64]) -> Rig {
         let straps = Straps::new(chain, (0..lengths.len()).collect());
@@ -91,8 +96,8 @@ impl Rig {
     }
 
     fn tensions(&self) -> [f64; MOST_NODES] {
-        let straps = self.straps.taut(self.past.device.time, &self.course, &self.past).solved.straps;
-        straps.map(|strap| strap.tension)
+        let mut web = Web::new();
+        tensions(&self.straps.taut(self.past.device.time, &self.course, &self.past, &mut web))
     }
 
     /// A step of h to these lengths, and the memory of it.
@@ -100,12 +105,13 @@ impl Rig {
         let before = self.course.lengths;
         self.course.lengths[..lengths.len()].copy_from_slice(lengths);
         let time = self.past.device.time + h;
-        let taut = self.straps.taut(time, &self.course, &self.past);
+        let mut web = Web::new();
+        let taut = self.straps.taut(time, &self.course, &self.past, &mut web);
         let mut next = self.past;
         self.straps.commit(time, &taut, &self.past, &mut next);
         next.device.time = time;
         self.past = next;
-        let now = taut.solved.straps.map(|strap| strap.tension);
+        let now = tensions(&taut);
         for i in 0..lengths.len() {
             self.work += 0.5 * (now[i] + self.pulls[i]) * (lengths[i] - before[i]);
         }
@@ -117,7 +123,8 @@ impl Rig {
     }
 
     fn stored(&self) -> f64 {
-        let taut = self.straps.taut(self.past.device.time, &self.course, &self.past);
+        let mut web = Web::new();
+        let taut = self.straps.taut(self.past.device.time, &self.course, &self.past, &mut web);
         (0..self.straps.starts.len()).map(|strap| self.straps.stored(&taut, strap)).sum()
     }
 

@@ -3,8 +3,8 @@
 use super::super::MOST_NODES;
 use super::super::data::*;
 use super::super::march::{Tense, march};
-use super::super::tension::{Course, Straps, Taut};
-use super::{Rig, chain, fixed, limiter, lines, random, reel, webbing};
+use super::super::tension::{Course, Straps, Taut, Web};
+use super::{Rig, chain, fixed, limiter, lines, random, reel, tensions, webbing};
 use crate::forces::function::Function;
 use crate::motion::dual::Dual;
 use crate::motion::scalar::Scalar;
@@ -105,7 +105,8 @@ fn a_thousand_random_belts_find_their_root() {
             let next: Vec<f64> = lengths.iter().map(|l| l * (1.0 + 0.08 * (random(&mut seed) - 0.3))).collect();
             rig.step(1e-3, &next);
             let all: f64 = next.iter().sum();
-            let taut = rig.straps.taut(rig.past.device.time, &rig.course, &rig.past);
+            let mut web = Web::new();
+            let taut = rig.straps.taut(rig.past.device.time, &rig.course, &rig.past, &mut web);
             let found = &taut.solved;
             assert_eq!(found.unsolved, 0.0, "{number}");
             // largest measured: 1.8e-9 m, five rings within their play
@@ -118,10 +119,8 @@ fn a_thousand_random_belts_find_their_root() {
 impl Rig {
     /// Whether R has the other sign at the number next to the solution: nothing nearer to 0 can be written.
     fn is_last_bit(&self, taut: &Taut<'_, f64>) -> bool {
-        let residual = |x: f64| {
-            let runs = &taut.runs[..self.straps.starts.len()];
-            march(&self.straps.webbing, &taut.feed, runs, x, &mut [Tense::none(); MOST_NODES]).0
-        };
+        let residual =
+            |x: f64| march(&self.straps.webbing, &taut.feed, taut.runs, x, &mut [Tense::none(); MOST_NODES]).0;
         let x = taut.solved.x;
         // a step of Newton within the last bit may end one number beside
         let others = [x.next_down().next_down(), x.next_down(), x.next_up(), x.next_up().next_up()];
@@ -147,7 +146,7 @@ fn rk4_keeps_its_order_while_webbing_slides() {
             let pull = |s: f64, x: f64| {
                 let mut course = rig.course;
                 course.lengths[1] = 0.6 + x;
-                9.81 - rig.straps.taut(time + s, &course, &rig.past).solved.straps[1].tension / mass
+                9.81 - rig.straps.taut(time + s, &course, &rig.past, &mut Web::new()).straps[1].tension / mass
             };
             let k1 = [v, pull(0.0, x)];
             let k2 = [v + 0.5 * h * k1[1], pull(0.5 * h, x + 0.5 * h * k1[0])];
@@ -178,7 +177,7 @@ fn derivatives_are_those_of_differences() {
         let straps = Straps::new(&data, vec![0, 1, 2]);
         let mut course = rig.course;
         course.lengths[1] = length;
-        straps.taut(rig.past.device.time, &course, &rig.past).solved.straps.map(|strap| strap.tension)
+        tensions(&straps.taut(rig.past.device.time, &course, &rig.past, &mut Web::new()))
     };
     let at = rig.course.lengths[1] + 1e-3;
     let h = 1e-6;
@@ -192,7 +191,8 @@ fn derivatives_are_those_of_differences() {
         Course { lengths: rig.course.lengths.map(plain), turns: rig.course.turns.map(plain), ..Course::none() };
     course.lengths[1] = Dual::new(at, [1.0, 0.0]);
     let past = rig.past.map(&mut |x| plain(x));
-    let found = straps.taut(plain(rig.past.device.time), &course, &past).solved.straps;
+    let mut web = Web::new();
+    let found = straps.taut(plain(rig.past.device.time), &course, &past, &mut web).straps;
     for i in 0..3 {
         let [one, two] = found[i].tension.slopes;
         // measured: 2e-7

@@ -144,14 +144,18 @@ impl<S> Solids<S> {
 }
 
 impl<S: Scalar> Solids<S> {
-    /// How far a sphere is at least from all solids of pair `j`, m, for a fraction of what [`Solids::nearest`] costs.
+    /// How far a sphere is at least from all solids of pair `j`, m, if it is farther than `enough` in all lanes; for a
+    /// fraction of what [`Solids::nearest`] costs.
     #[inline(always)]
-    pub(crate) fn at_least(&self, j: usize, centre: V3<S>, radius: S) -> S {
+    pub(crate) fn farther(&self, j: usize, centre: V3<S>, radius: S, enough: S) -> Option<S> {
         let mut least = S::of(f64::INFINITY);
         for member in &self.pairs[j].members {
             least = least.min(self.shapes[member.solid].at_least(centre));
+            if S::any(!enough.lt(least - radius)) {
+                return None;
+            }
         }
-        least - radius
+        Some(least - radius)
     }
 
     /// Whether the solids of pair `j` remember a touch, in any lane.

@@ -76,9 +76,7 @@ impl Reported for JointLimits {
 
     #[inline(always)]
     fn track<S: Scalar>(a: &LimitAction<S>, tracker: &mut impl Tracker<S>) {
-        for number in [a.excess, a.stop.norm_squared().sqrt(), a.lock.norm_squared().sqrt()] {
-            tracker.number(number);
-        }
+        tracker.numbers(&[a.excess, a.stop.norm_squared().sqrt(), a.lock.norm_squared().sqrt()]);
     }
 
     fn keep(past: &mut Vec<LimitHistory<f64>>, like: Option<&[LimitHistory<f64>]>, file: &mut dyn Archive) {
