@@ -205,45 +205,31 @@ pub(crate) fn passes<S: Scalar>(level: S, before: S, now: S) -> S {
     S::select(now.gt(before), S::one() + (level - now) / way, S::zero())
 }
 
-/// Data that save evaluations unnecessary work.
+/// Data that save evaluations unnecessary work; unless it says otherwise, data of which nothing outlasts an evaluation.
 pub trait Hints<S: Scalar>: Clone + Debug {
     /// Copies `other`, of the same elements, without allocation.
-    fn take_over(&mut self, other: &Self);
+    #[inline(always)]
+    fn take_over(&mut self, _other: &Self) {}
 
     /// Visits every element in these lanes until the next commit, as required if the memory belongs to another
     /// position.
-    fn look_again(&mut self, lanes: S::Mask);
+    #[inline(always)]
+    fn look_again(&mut self, _lanes: S::Mask) {}
 
     /// Copies `other`, of the same elements, in these lanes.
-    fn blend(&mut self, other: &Self, lanes: S::Mask);
+    #[inline(always)]
+    fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
 
     /// Copies `other` without what cannot act within the step from its commit, which is this share of the longest.
-    fn take_over_for(&mut self, other: &Self, share: S);
+    #[inline(always)]
+    fn take_over_for(&mut self, _other: &Self, _share: S) {}
 }
 
 /// No hints.
-impl<S: Scalar> Hints<S> for () {
-    #[inline(always)]
-    fn take_over(&mut self, _other: &Self) {}
-    #[inline(always)]
-    fn look_again(&mut self, _lanes: S::Mask) {}
-    #[inline(always)]
-    fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
-    #[inline(always)]
-    fn take_over_for(&mut self, _other: &Self, _share: S) {}
-}
+impl<S: Scalar> Hints<S> for () {}
 
-/// Room of which nothing outlasts an evaluation, if there are elements that need it.
-impl<S: Scalar, T: Clone + Debug> Hints<S> for Option<Box<T>> {
-    #[inline(always)]
-    fn take_over(&mut self, _other: &Self) {}
-    #[inline(always)]
-    fn look_again(&mut self, _lanes: S::Mask) {}
-    #[inline(always)]
-    fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
-    #[inline(always)]
-    fn take_over_for(&mut self, _other: &Self, _share: S) {}
-}
+/// Room that evaluations reuse, if there are elements that need it.
+impl<S: Scalar, T: Clone + Debug> Hints<S> for Option<Box<T>> {}
 
 /// Energy stored by the elements of a kind, or dissipated according to their memory.
 #[derive(Clone, Copy, Debug)]

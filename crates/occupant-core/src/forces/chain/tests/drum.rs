@@ -69,10 +69,7 @@ impl Drum {
 
     /// Tensions, and the moment on the drum about y.
     fn pulls(&self, time: f64, posture: Posture) -> ([f64; 2], f64) {
-        self.now(time, posture, |now| {
-            let [a, b, ..] = now.taut.straps else { unreachable!() };
-            ([a.tension, b.tension], self.law.couple(now, 1, 1).y)
-        })
+        self.now(time, posture, |now| (tensions_of(now), self.law.couple(now, 1, 1).y))
     }
 
     fn commit(&mut self, time: f64, posture: Posture) {
@@ -215,9 +212,12 @@ fn tensions<S: Scalar>(law: &ChainLaw<S>, past: &ChainPast<S>, turned: S) -> [S;
     let state = State::zero(Shape::new(0, 0));
     let frames = Frames::still(S::of(1.0));
     let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted: false };
-    let mut room = Room::new();
-    let [a, b, ..] = law.now(&at, past, &mut room, false).taut.straps else { unreachable!() };
-    [a.tension, b.tension]
+    tensions_of(&law.now(&at, past, &mut Room::new(), false))
+}
+
+/// Of the straps before and behind the drum.
+fn tensions_of<S: Scalar>(now: &Now<'_, S>) -> [S; 2] {
+    [0, 1].map(|strap| now.taut.straps[strap].tension)
 }
 
 /// Stuck within its play, slipping, and with the mark at the end of the arc.
