@@ -1,4 +1,4 @@
-//! Belts whose upper anchor a back of a seat carries: the webbing turns the back.
+//! Belts whose upper anchor a back of a seat carries: the webbing turns the back. Belts that pass behind a chest.
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, channels};
@@ -211,5 +211,53 @@ fn frames_of_no_vehicle_carry_no_webbing() {
         let said = draft.load(&|name: &str| Err(format!("no file {name}"))).and_then(|loaded| loaded.build());
         let said = said.err().map(|problems| problems.to_string()).unwrap_or_else(|| panic!("{set} is accepted"));
         assert!(said.contains(expected), "{set}: {said}");
+    }
+}
+
+/// A chest that is held, and webbing at a constant tension in a car that goes ahead by 0.4 m: the line between its ends passes the
+/// middle of the chest's sphere at 3 mm, and the plane of the webbing turns by half a turn.
+const PASSES: &str = r#"
+title = "webbing whose ends pass a chest"
+gravity = 0
+time = { end = "200 ms" }
+output = { interval = "10 ms" }
+path = { kind = "pulse", shape = "square", speed = "2 m/s", delta_v = "1e-9 m/s", duration = "0.2 s" }
+contact = { bodies = [] }
+mount = { segment = "upper_torso", frame = "space", point = [0, 0, 0], place = [0, 0, 0] }
+body = { preset = "male50" }
+joints = { preset = "gebod" }
+
+[webbings.strap]
+strain = [0, 0.1]
+force = [0, 11000]
+
+[triggers.never]
+kind = "time"
+at = "9 s"
+
+[retractors.reel]
+on_spool = "2 m"
+spool_tension = "2 kN"
+lock = { trigger = "never", payout = 0 }
+
+[belts.torso]
+webbing = "strap"
+nodes = [
+  { name = "reel", at = [-0.2, 0.003, -0.6], retractor = "reel" },
+  { sphere = "chest" },
+  { name = "sill", at = [-0.2, 0.003, 0.2] },
+]
+"#;
+
+#[test]
+fn webbing_that_passes_behind_a_chest_says_so() {
+    for (end_ms, is_behind) in [(80, false), (200, true)] {
+        let model = Model::new(setup(PASSES, &[&format!("time.end=\"{end_ms} ms\"")])).unwrap();
+        let mut summarizer = Summarizer::new();
+        simulate(&model, &mut summarizer).unwrap();
+        let caveats = summarizer.summary(None).unwrap().caveats;
+        let told = caveats.iter().find(|caveat| caveat.name == "torso_behind");
+        assert_eq!(told.is_some(), is_behind, "{end_ms} ms: {caveats:?}");
+        assert!(told.is_none_or(|told| told.touches("straps.torso_reel_sill.peak")));
     }
 }

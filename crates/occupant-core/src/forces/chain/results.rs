@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use occupant_units::unit::Unit::{self, Joule, Metre, Newton, One, Radian};
 
 use super::data::Wing;
@@ -171,6 +171,14 @@ fn arcs<S: Scalar>(
             force: frame.axes.into_frame(forces[k]),
         }
     })
+}
+
+impl StrapAction<f64> {
+    /// Spheres that it wraps, and its forces on them, axes of the belt's frame, N.
+    pub(crate) fn on_spheres(&self) -> impl Iterator<Item = (usize, Vector3<f64>)> {
+        let on = self.arcs.iter().filter(|arc| arc.wrap > 0.0);
+        on.filter_map(|arc| Some((arc.sphere?, arc.force.to_vector())))
+    }
 }
 
 impl Arc<f64> {

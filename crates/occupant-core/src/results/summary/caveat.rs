@@ -293,6 +293,13 @@ impl Caveat {
         Caveat::of_shoulder(chain, "on_neck", &format!("{seen}: what it does to the neck is not modelled"))
     }
 
+    /// Belt that passes behind a sphere under load since a time, s.
+    pub(super) fn behind(chain: &Chain, time_s: f64) -> Self {
+        let seen = format!("passed behind a sphere of the body at {:.1} ms, under load", 1e3 * time_s);
+        let why = "its plane had turned, so it pushes the body ahead. Points of the body keep a belt in front";
+        Caveat::of_shoulder(chain, "behind", &format!("{seen}: {why}"))
+    }
+
     fn of_shoulder(chain: &Chain, sign: &str, seen: &str) -> Self {
         let belt = &chain.belt;
         let text = format!("the belt {belt} {seen}; {}", not_to_be_quoted("the belt's"));

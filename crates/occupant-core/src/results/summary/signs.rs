@@ -8,7 +8,7 @@ use super::strokes::Strokes;
 use crate::body::Body;
 use crate::forces::bag::Bag;
 use crate::forces::chain::wing::LEAST_N;
-use crate::forces::chain::{Chain, OnShoulder};
+use crate::forces::chain::{Chain, OnShoulder, StrapAction};
 use crate::forces::contact::{ContactSystem, Group, PASSED, Plane, Touch};
 use crate::forces::joint::{JointLaw, Stop};
 use crate::model::Model;
@@ -36,6 +36,9 @@ const MOST_EXCESS_RAD: f64 = 0.524;
 /// Largest deformation of a seat cushion, m. Other objects deform by at most the diameter of the sphere.
 const CUSHION_M: f64 = 0.15;
 
+/// Forward part of the force of webbing on a sphere above which it passes behind the sphere.
+const AHEAD: f64 = 0.5;
+
 /// Findings so far. Allocates at the start of a run only.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Signs {
@@ -60,8 +63,8 @@ pub(super) struct Signs {
     run_out: Vec<Peak>,
     /// By strap: time at which it left the wing of the pelvis where it begins, s, and the side (1: left, 2: right).
     slipped: Vec<Option<(f64, f64)>>,
-    /// By belt over several nodes: first time off the shoulder under load, and first time beside the neck, s.
-    shoulders: Vec<[Option<f64>; 2]>,
+    /// By belt over several nodes: first time off the shoulder under load, beside the neck, and behind a sphere, s.
+    shoulders: Vec<[Option<f64>; 3]>,
     /// By bag and by its spheres: time of firing with the sphere in its way, and time at which the sphere compressed it
     /// to its mount, s.
     bags: Vec<Vec<[Option<f64>; 2]>>,
@@ -111,6 +114,17 @@ impl Sunk {
     }
 }
 
+/// Whether a loaded strap pushes a sphere ahead, as seen from its segment.
+fn passes_behind(sample: &Sample<'_>, chain: &Chain, strap: &StrapAction<f64>) -> bool {
+    let frame = sample.frame(chain.frame);
+    strap.on_spheres().any(|(sphere, force_n)| {
+        let Some(sphere) = sample.model.body().spheres.get(sphere) else { return false };
+        let axes = &sample.evaluation.kinematics.axes[sphere.segment.index()];
+        let ahead_n = axes.into_frame(V3::of(&(frame.rotation * force_n))).x;
+        ahead_n > LEAST_N && ahead_n > AHEAD * force_n.norm()
+    })
+}
+
 impl Signs {
     pub(super) fn new(model: &Model) -> Self {
         let body = model.body();
@@ -133,7 +147,7 @@ impl Signs {
             stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             run_out: vec![Peak::NONE; model.setup().chains.len()],
             slipped: vec![None; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
-            shoulders: vec![[None; 2]; model.setup().chains.len()],
+            shoulders: vec![[None; 3]; model.setup().chains.len()],
             bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
             behind: model.setup().bags.iter().map(|bag| vec![None; bag.spheres.len()]).collect(),
             strokes: Strokes::new(model),
@@ -260,18 +274,21 @@ impl Signs {
         }
     }
 
-    /// Checks loaded belts for positions off the shoulder or beside the neck.
+    /// Checks loaded belts for positions off the shoulder, beside the neck, or behind a sphere.
     fn see_shoulders(&mut self, sample: &Sample<'_>) {
         let (laws, mut first) = (&sample.model.system().forces.chains, 0);
-        for ((law, past), seen) in laws.iter().zip(&sample.history.memory.chains).zip(&mut self.shoulders) {
-            let straps = sample.actions.chains.get(first..).unwrap_or_default();
+        let belts = laws.iter().zip(&sample.model.setup().chains).zip(&sample.history.memory.chains);
+        for (((law, chain), past), [off, neck, behind]) in belts.zip(&mut self.shoulders) {
+            let straps = sample.actions.chains.get(first..first + law.strap_count()).unwrap_or_default();
             first += law.strap_count();
-            let Some((strap, lies)) = law.on_shoulder(past) else { continue };
-            if straps.get(strap).is_none_or(|strap| strap.force < LEAST_N) || lies == OnShoulder::Bears {
-                continue;
+            let mark = |seen: &mut Option<f64>| *seen = seen.or(Some(sample.time_s));
+            if behind.is_none() && straps.iter().any(|strap| passes_behind(sample, chain, strap)) {
+                mark(behind);
             }
-            let seen = &mut seen[usize::from(lies == OnShoulder::AtNeck)];
-            *seen = seen.or(Some(sample.time_s));
+            let Some((strap, lies)) = law.on_shoulder(past) else { continue };
+            if straps.get(strap).is_some_and(|strap| strap.force >= LEAST_N) && lies != OnShoulder::Bears {
+                mark(if lies == OnShoulder::AtNeck { neck } else { off });
+            }
         }
     }
 
@@ -380,8 +397,9 @@ impl Signs {
         let run_out =
             run_out.filter_map(|(chain, peak)| Some(Caveat::run_out(&chain.belt, *peak, chain.device.end_m()?)));
         let shoulders = chains.iter().zip(&self.shoulders);
-        let shoulders = shoulders.flat_map(move |(chain, [off, neck])| {
-            [off.map(|s| Caveat::off_shoulder(chain, s)), neck.map(|s| Caveat::at_neck(chain, s))]
+        let shoulders = shoulders.flat_map(move |(chain, [off, neck, behind])| {
+            let behind = behind.map(|s| Caveat::behind(chain, s));
+            [off.map(|s| Caveat::off_shoulder(chain, s)), neck.map(|s| Caveat::at_neck(chain, s)), behind]
         });
         stretched.chain(run_out).chain(slipped).chain(shoulders.flatten())
     }
