@@ -293,11 +293,21 @@ impl Caveat {
         Caveat::of_shoulder(chain, "on_neck", &format!("{seen}: what it does to the neck is not modelled"))
     }
 
-    /// Belt that passes behind a sphere under load since a time, s.
-    pub(super) fn behind(chain: &Chain, time_s: f64) -> Self {
-        let seen = format!("passed behind a sphere of the body at {:.1} ms, under load", 1e3 * time_s);
-        let why = "its plane had turned, so it pushes the body ahead. Points of the body keep a belt in front";
-        Caveat::of_shoulder(chain, "behind", &format!("{seen}: {why}"))
+    /// Belt that passes behind a sphere under load since a time, s: neither it nor what it wraps moves as in front.
+    pub(super) fn behind(body: &Body, chain: &Chain, time_s: f64) -> Self {
+        let belt = &chain.belt;
+        let text = format!(
+            "the belt {belt} passed behind a sphere of the body at {:.1} ms, under load: there it pushes the body ahead. Points of the body instead of a sphere keep a belt in front; {}",
+            1e3 * time_s,
+            not_to_be_quoted("the belt's and the body's")
+        );
+        let spheres = chain.nodes.iter().filter_map(|node| match node.site {
+            Site::Sphere(sphere) => body.spheres.get(sphere),
+            _ => None,
+        });
+        let spoiled = spheres.flat_map(|sphere| figures_of(body, sphere.segment));
+        let figures = [format!("straps.{}_*", word(belt))].into_iter().chain(spoiled).collect();
+        Caveat::new(format!("{belt}_behind"), text, figures)
     }
 
     fn of_shoulder(chain: &Chain, sign: &str, seen: &str) -> Self {

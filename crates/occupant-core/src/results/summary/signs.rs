@@ -398,7 +398,7 @@ impl Signs {
             run_out.filter_map(|(chain, peak)| Some(Caveat::run_out(&chain.belt, *peak, chain.device.end_m()?)));
         let shoulders = chains.iter().zip(&self.shoulders);
         let shoulders = shoulders.flat_map(move |(chain, [off, neck, behind])| {
-            let behind = behind.map(|s| Caveat::behind(chain, s));
+            let behind = behind.map(|s| Caveat::behind(body, chain, s));
             [off.map(|s| Caveat::off_shoulder(chain, s)), neck.map(|s| Caveat::at_neck(chain, s)), behind]
         });
         stretched.chain(run_out).chain(slipped).chain(shoulders.flatten())
