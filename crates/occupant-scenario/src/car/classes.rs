@@ -18,6 +18,7 @@
 //! sedan, a crossover and a pickup (P. Atkinson et al., SAE 2009-01-0390).
 
 use crate::sections::{CarClass, CarSection, si_or};
+use occupant_units::trig;
 
 /// Stature for which the driver's seat is at its design position, m: the mean of women and men.
 pub(super) const MEAN_STATURE_M: f64 = 1.69;
@@ -39,6 +40,8 @@ pub(super) struct Measures {
     pub(super) roof: f64,
     /// Distance of the driver's heels forward of the design H-point.
     pub(super) heels: f64,
+    /// The same of heels whose soles lie flat on the floor, with their balls where the pedals are.
+    pub(super) flat_heels: f64,
     /// Wheel centre forward of and above the design H-point.
     pub(super) wheel: [f64; 2],
     /// A18.
@@ -67,8 +70,11 @@ fn dimensions(class: CarClass) -> [f64; 9] {
 pub(super) const H61_ADDS_M: f64 = 0.102;
 pub(super) const H61_LEANS_RAD: f64 = 8.0 * std::f64::consts::PI / 180.0;
 
-/// From the heel of a shoe on the pedal to its ball, m; SAE J826.
+/// From the heel of a shoe to its ball, along its sole, m; SAE J826.
 const HEEL_TO_BALL_M: f64 = 0.203;
+/// The heels of a body are in line with its shanks, those of shoes behind them: so much nearer, the ankles are as far from the hips, m;
+/// ours.
+const HEEL_BEHIND_SHANK_M: f64 = 0.027;
 /// From the wheel's centre to the face of the panel, m; ours.
 const WHEEL_TO_PANEL_M: f64 = 0.29;
 /// From the face of the bolster to that of the panel above it, m; ours.
@@ -78,7 +84,7 @@ impl Measures {
     /// Measures of a class, changed by the scenario's values.
     pub(super) fn of(car: &CarSection) -> Measures {
         let [h30, l6, h17, a18, w9, w20, w3, l50, h61] = dimensions(car.class.unwrap_or_default());
-        let (_, upright) = occupant_units::trig::sin_cos(H61_LEANS_RAD);
+        let (_, upright) = trig::sin_cos(H61_LEANS_RAD);
         let seat_height = si_or(&car.seat_height, h30);
         // ball of the foot ahead of the mean driver's H-point
         let ball = 0.718 - 0.24 * seat_height + 0.41 * l6;
@@ -90,7 +96,8 @@ impl Measures {
             couple: si_or(&car.couple, l50),
             shoulder_room: si_or(&car.shoulder_room, w3),
             roof: si_or(&car.roof, (h61 - H61_ADDS_M) * upright),
-            heels: ball - HEEL_TO_BALL_M,
+            heels: ball - HEEL_TO_BALL_M * trig::sin_cos(pedal_rad(seat_height)).1 - HEEL_BEHIND_SHANK_M,
+            flat_heels: ball - HEEL_TO_BALL_M,
             wheel: [ahead, si_or(&car.wheel.above, h17 - h30)],
             wheel_angle_deg: car.wheel.angle.as_ref().map_or(a18, |angle| angle.si().to_degrees()),
             wheel_diameter: si_or(&car.wheel.diameter, w9),
@@ -98,4 +105,10 @@ impl Measures {
             bolster: si_or(&car.panel.bolster, panel - BOLSTER_BEFORE_PANEL_M),
         }
     }
+}
+
+/// Angle of the sole on an undepressed pedal against the floor, A47, by H30; SAE J1516, rad.
+fn pedal_rad(seat_height_m: f64) -> f64 {
+    let cm = 100.0 * seat_height_m;
+    (78.96 - 0.15 * cm - 0.0173 * cm * cm).max(0.0).to_radians()
 }

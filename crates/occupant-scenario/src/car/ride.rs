@@ -55,7 +55,7 @@ impl Car<'_> {
             [self.measures.heels.min(seat.h[0] + FARTHEST_HEELS_M), self.measures.seat_height]
         } else {
             // rows behind the front have the seats ahead before their shins
-            let room = if seat.row == 0 { self.measures.heels } else { self.measures.couple - REAR_FEET_M };
+            let room = if seat.row == 0 { self.measures.flat_heels } else { self.measures.couple - REAR_FEET_M };
             let ahead = PASSENGER_HEELS_M.min(room);
             [seat.h[0] + ahead, self.measures.seat_height]
         };

@@ -126,7 +126,8 @@ impl Car<'_> {
         let ([a, above], b, w) = (self.measures.panel, self.measures.bolster, self.half_width());
         let sides = [0.0, w];
         let top = -above;
-        let bolster = [[b - 0.02, -0.19], [b + 0.03, 0.05], [b + 0.19, 0.05], [b + 0.18, -0.19]];
+        // below the knees it recedes, along the shins of a driver
+        let bolster = [[b - 0.02, -0.19], [b + 0.01, -0.05], [b + 0.11, 0.05], [b + 0.22, 0.05], [b + 0.18, -0.19]];
         let panel = [[a + 0.03, top + 0.03], [a, -0.18], [a + 0.45, -0.18], [a + 0.45, top + 0.08], [a + 0.10, top]];
         let (base, head) = ([a + 0.46, top + 0.10], [0.45, -self.measures.roof]);
         let screen = [base, head, [head[0] + 0.04, head[1] - 0.04], [base[0] + 0.04, base[1] - 0.04]];

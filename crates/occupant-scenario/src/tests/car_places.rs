@@ -64,6 +64,22 @@ fn a_sedan_has_the_published_size() {
     }
 }
 
+/// A shoe on a pedal leans by A47 of SAE J1516, 64.4° where H30 is 250 mm, so its heel is 203 mm · cos A47 before its ball, which is 883.5 mm
+/// from the H-point of a mean driver. The heels of a body stand 27 mm nearer.
+#[test]
+fn heels_of_a_driver_are_those_of_shoes_on_a_pedal() {
+    let ahead = |class: &str| {
+        let mut draft = Draft::read(&of(class), Format::Toml, "s.toml").unwrap();
+        let found = draft.get("posture.heels[0]").unwrap();
+        let placed_text::Value::String(text) = &found[0].1 else { panic!("{found:?}") };
+        text.trim_end_matches(" m").parse::<f64>().unwrap()
+    };
+    assert!((ahead("class = \"sedan\"") - 0.7688).abs() < 1e-4, "{}", ahead("class = \"sedan\""));
+    // a high seat has a flat pedal, near the seat; no seat is so high that a shoe points back
+    let [low, high, highest] = ["0.25", "0.35", "1.2"].map(|h| ahead(&format!("seat_height = {h}")));
+    assert!(low > high && high > highest && (low - highest - 0.24 * 0.95) < 0.203, "{low} {high} {highest}");
+}
+
 /// A ring on the pillar stays where it is as the seat slides, and one that is said stays where it was said.
 #[test]
 fn a_d_ring_stands_on_the_pillar() {
