@@ -44,8 +44,9 @@ nodes = [
 ]
 "#;
 
-/// Angle of the wing's normal where the webbing begins, and friction across it.
-const NORMAL_RAD: f64 = 0.44;
+/// Where the webbing begins, in radii of the pelvis ahead of and above its middle; angle of the wing's normal there; friction across it.
+const PLACE: f64 = 0.68;
+const NORMAL_RAD: f64 = -0.09;
 const ACROSS: f64 = 0.25;
 
 /// The case with anchors so far below the level as seen from the wings.
@@ -58,8 +59,8 @@ fn held_text(below_rad: f64) -> String {
     let sphere = &body.spheres[body.sphere("pelvis").unwrap()];
     let (c, r) = (sphere.centre_from_lower_end_m, sphere.radius_m);
     let anchor = |side: f64| {
-        let x = c.x + r * NORMAL_RAD.cos() - 0.6 * below_rad.cos();
-        let z = c.z + r * NORMAL_RAD.sin() - 0.6 * below_rad.sin();
+        let x = c.x + r * PLACE - 0.6 * below_rad.cos();
+        let z = c.z + r * PLACE - 0.6 * below_rad.sin();
         format!("[{x}, {}, {}]", -side * 0.95 * r, -z)
     };
     HELD.replace("[-0.5, -0.1, 0]", &anchor(1.0)).replace("[-0.5, 0.1, 0]", &anchor(-1.0))
@@ -99,7 +100,7 @@ fn a_belt_slides_off_a_wing_beyond_the_cone_of_friction() {
         let off: f64 = NORMAL_RAD - below;
         off.sin() / (off.cos().powi(2) + 1.0).sqrt()
     };
-    for (below, slides) in [(0.12, false), (0.07, true)] {
+    for (below, slides) in [(-0.41, false), (-0.46, true)] {
         assert_eq!(across(below) > ACROSS, slides);
         let (values, caveats, events) = traced(&held(below, &["time.end=0.4"]));
         assert_below("angle at the start, rad", (values[0][0] - across(below).atan()).abs(), 2e-3);
@@ -114,11 +115,12 @@ fn a_belt_slides_off_a_wing_beyond_the_cone_of_friction() {
 /// Both wings of a belt that lies evenly let go at one time, the tension stays, the abdomen is pressed in, and no energy is lost from sight.
 #[test]
 fn what_slides_off_a_wing_presses_the_abdomen() {
-    let (values, ..) = traced(&held(-0.1, &[]));
+    let (values, ..) = traced(&held(-0.63, &[]));
     let gone = |force: &[f64]| force.iter().position(|force| *force == 0.0).unwrap_or(usize::MAX);
     let [left, right] = [gone(&values[1]), gone(&values[2])];
     assert_eq!(left, right);
-    assert_within("time, half ms", left as f64, [20.0, 24.0]);
+    // 40 mm, at speeds from 4 to 12 m/s: the pull less friction, over the drag
+    assert_within("time, half ms", left as f64, [13.0, 17.0]);
     let tension = |i: usize| values[3][i];
     assert_below("tension, N", (tension(left) / tension(left - 1) - 1.0).abs(), 1e-6);
     let deepest = values[4].iter().fold(0.0, |most: f64, s| most.max(*s));
@@ -131,7 +133,7 @@ fn what_slides_off_a_wing_presses_the_abdomen() {
 /// as the curve of the flesh says.
 #[test]
 fn flesh_before_the_pelvis_bears_the_belt_once() {
-    let below = 0.12_f64;
+    let below = -0.41_f64;
     let depth_m = |force: f64| match force {
         _ if force < 1200.0 => force / 60e3,
         _ => 0.02 + (force - 1200.0) / (5000.0 / 0.015),
@@ -147,7 +149,7 @@ fn flesh_before_the_pelvis_bears_the_belt_once() {
         let mut watch = Series::new(names.map(find).to_vec());
         simulate(&model, &mut watch).unwrap();
         let [depth, force, pull] = [0, 1, 2].map(|i| *watch.values[i].last().unwrap());
-        let asked = 2.0 * pull * (below.cos() + below.sin()) / 2_f64.sqrt();
+        let asked = 2.0 * pull * below.cos();
         assert_below("force on the flesh", (force / asked - 1.0).abs(), 0.03);
         assert_below("depth of the flesh, m", (depth - depth_m(force)).abs(), 1e-4);
         assert_within("tension, N", pull, [0.95 * tension, 1.05 * tension]);
@@ -159,7 +161,7 @@ fn flesh_before_the_pelvis_bears_the_belt_once() {
 fn an_abdomen_beyond_its_data_is_told_of() {
     let told = |more: &[&str]| {
         let mut summarizer = Summarizer::new();
-        simulate(&held(-0.1, more), &mut summarizer).unwrap();
+        simulate(&held(-0.63, more), &mut summarizer).unwrap();
         let caveats = summarizer.summary(None).unwrap().caveats;
         caveats
             .iter()
@@ -176,13 +178,13 @@ fn an_abdomen_beyond_its_data_is_told_of() {
 /// Side by side and alone, with belts that slide off at other times.
 #[test]
 fn wings_end_alike_side_by_side() {
-    ends_alike_side_by_side(|i| held(0.05 * f64::from(i) - 0.2, &[]));
+    ends_alike_side_by_side(|i| held(0.05 * f64::from(i) - 0.73, &[]));
 }
 
 /// A loop round the sphere of a pelvis cannot slide off it: a pull that would draw it up over the wings is told of, before the run and after it.
 #[test]
 fn a_loop_that_would_slide_off_the_wings_is_told_of() {
-    for (below, slides) in [(0.3, false), (-0.1, true)] {
+    for (below, slides) in [(-0.23, false), (-0.63, true)] {
         let text = held_text(below);
         let nodes = r#"  { name = "left", wing = "left" },
   { name = "right", wing = "right" },
@@ -199,7 +201,7 @@ fn a_loop_that_would_slide_off_the_wings_is_told_of() {
         let spoils = ["straps.lap_reel_sill.peak", "pelvis.peak", "chest.peak"];
         assert!(told.is_none_or(|told| spoils.iter().all(|figure| told.touches(figure))));
     }
-    let warned = [0.12, 0.07].map(|below| diagnose(&held(below, &[])).lap_belts.len());
+    let warned = [-0.41, -0.46].map(|below| diagnose(&held(below, &[])).lap_belts.len());
     assert_eq!(warned, [0, 1], "wings");
 }
 
@@ -217,7 +219,7 @@ fn a_lap_belt_over_plain_points_of_the_pelvis_is_told_of() {
         let points = ["on = \"lower_torso\", at = [0.1, 0.09, 0.06]", "on = \"lower_torso\", at = [0.1, -0.09, 0.06]"];
         (0..2).fold(text, |text, i| text.replace(wings[i], points[i]))
     };
-    let (count, words, slides) = said(&plain(0.3));
+    let (count, words, slides) = said(&plain(-0.23));
     assert_eq!((count, slides), (1, 0), "{words}");
     assert!(words.contains("a lap belt over `left`") && words.contains("wing = \"left\""), "{words}");
     // in tables of many runs too
@@ -226,12 +228,12 @@ fn a_lap_belt_over_plain_points_of_the_pelvis_is_told_of() {
         simulate(&Model::new(setup(text, &[])).unwrap(), &mut summarizer).unwrap();
         summarizer.summary(None).unwrap().caveats.iter().any(|caveat| caveat.name == "lap_submarining_unseen")
     };
-    assert!(unseen(&plain(0.3)) && !unseen(&held_text(0.3)));
+    assert!(unseen(&plain(-0.23)) && !unseen(&held_text(-0.23)));
     // one that pulls up is told of as one round the pelvis is
-    assert_eq!(said(&plain(-0.1)).2, 1);
+    assert_eq!(said(&plain(-0.63)).2, 1);
     // on wings it can be seen, and a belt over the chest is none
-    assert_eq!(said(&held_text(0.3)).0, 0);
-    let chest = plain(0.3).replace("on = \"lower_torso\"", "on = \"upper_torso\"");
+    assert_eq!(said(&held_text(-0.23)).0, 0);
+    let chest = plain(-0.23).replace("on = \"lower_torso\"", "on = \"upper_torso\"");
     assert_eq!(said(&chest).0, 0);
 }
 

@@ -17,7 +17,7 @@ use crate::check::check_parts;
 use crate::dummies;
 use crate::expand::{over, written};
 use crate::presets;
-use crate::sections::{BodySection, CAR_TITLE, CarClass, CarSeatSection, CarSection, Side, schema};
+use crate::sections::{BodySection, CAR_TITLE, CarClass, CarSeatSection, CarSection, DummyChoice, Side, schema};
 use classes::Measures;
 pub(super) use dimensions::dimensions;
 pub use dimensions::{Dimension, Size};
@@ -188,6 +188,8 @@ struct Lacks {
     joints: bool,
     /// Deformable parts: an adult with the joints of a person, without any of his own.
     flesh: bool,
+    /// Flesh under a lap belt on iliac wings: such a person, or the dummy of an adult.
+    pelvis: bool,
     /// The spheres: a body that does not define its own segments.
     spheres: bool,
     /// The initial state.
@@ -241,12 +243,15 @@ fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option
         |node: Option<&Node>, keys: &[&str]| node.is_some_and(|node| keys.iter().any(|key| node.get(key).is_some()));
     let preset = joints.and_then(|joints| joints.get("preset")).and_then(Node::as_str);
     let is_person = preset.is_none_or(|preset| presets::OF_PEOPLE.contains(&preset));
+    let flesh = is_person
+        && person.is_some()
+        && !says(body, &["dummy", "chest", "pelvis", "abdomen", "segments", "segment_count"]);
+    let is_dummy = section.and_then(|own| own.dummy).is_some_and(|dummy| dummy != DummyChoice::HybridIii6C);
     let lacks = Lacks {
         body: !says(body, &["preset", "dummy", "sex", "stature", "mass", "segments", "joints"]),
         joints: !says(joints, &["preset"]) && !says(body, &["joints", "dummy"]),
-        flesh: is_person
-            && person.is_some()
-            && !says(body, &["dummy", "chest", "pelvis", "abdomen", "segments", "segment_count"]),
+        flesh,
+        pelvis: flesh || (is_dummy && !says(body, &["pelvis", "segments"])),
         spheres: !says(body, &["sphere_set", "segments"]),
         arms: !says(own.get("posture"), &["upper_arms", "elbows", "left_upper_arm", "right_upper_arm"]),
         posture: !says(Some(own), &["initial_state", "mount", "stance"]),

@@ -116,7 +116,7 @@ impl Car<'_> {
                 if let Some(back) = seat.back_frame().filter(|_| kind == CarBelt::Seat) {
                     belt += &format!("d_ring_frame = \"{back}\"\n");
                 }
-                if rider.lacks.flesh {
+                if rider.lacks.pelvis {
                     belt += "lap = \"wings\"\n";
                 }
                 if let Some(above) = &own.lap_above {
@@ -192,7 +192,10 @@ impl Car<'_> {
         }
         if lacks.flesh {
             text += &format!("segment_count = {}\n", segment_count(riders));
-            text += "chest = \"person\"\npelvis = \"flesh\"\nabdomen = \"person\"\n";
+            text += "chest = \"person\"\nabdomen = \"person\"\n";
+        }
+        if lacks.pelvis {
+            text += "pelvis = \"flesh\"\n";
         }
         text += &format!("[{prefix}joints]\n");
         if lacks.joints {

@@ -12,6 +12,7 @@
 use crate::sections::{ChestChoice, SidesChoice, above};
 use occupant_core::body::people::Person;
 use occupant_core::body::{Body, Segment, shape};
+use occupant_core::forces::chain::wing::PLACE;
 use occupant_units::trig;
 
 /// Height of the sternum's plate above the upper torso's lower end, as a fraction of its length.
@@ -236,8 +237,8 @@ pub(super) fn flesh(body: &Body) -> [String; 2] {
     let plate = [
         "[body.plates.flesh]".to_owned(),
         format!("segment = {:?}", body.tree[pelvis].name),
-        format!("at = {}", list(&[0.7 * radius_m, 0.0, 0.7 * radius_m])),
-        "inward = [-1, 0, -1]".to_owned(),
+        format!("at = {}", list(&[PLACE[0] * radius_m, 0.0, PLACE[1] * radius_m])),
+        "inward = [-1, 0, 0]".to_owned(),
         "mass = 0.5".to_owned(),
         "spring = { depth = [0, 0.02, 0.035, 0.06], force = [0, 1200, 6200, 31200], returned = 0.3 }".to_owned(),
         "damper = { linear = 500 }".to_owned(),

@@ -1,6 +1,6 @@
 //! `belts.*.nodes.wing`: the iliac wings of the pelvis, on which a lap belt bears, and the abdomen above them.
 //!
-//! All positions are guesses relative to the sphere of the pelvis: we had no drawing of a pelvis.
+//! Positions are relative to the sphere of the pelvis and scale with it. How far apart the wings are is a guess.
 
 use nalgebra::{Point3, Vector3};
 
@@ -8,7 +8,7 @@ use super::builder::Builder;
 use super::nodes::WingSide;
 use occupant_core::body::{Body, Segment, Shares};
 pub(super) use occupant_core::forces::chain::wing::ACROSS;
-use occupant_core::forces::chain::wing::{ANGLES_RAD, DRAG_N_S_M};
+use occupant_core::forces::chain::wing::{ANGLES_RAD, DRAG_N_S_M, PLACE, RADIUS};
 use occupant_core::forces::chain::{Next, Track, Wing};
 
 /// Lateral position of a wing, as a fraction of the sphere's radius.
@@ -36,15 +36,18 @@ pub(super) fn track(
     };
     let r = sphere.radius_m;
     let (y, wing) = if side == WingSide::Left { (BESIDE * r, Wing::Left) } else { (-BESIDE * r, Wing::Right) };
-    let point = |angle: f64| {
+    let radius_m = RADIUS * r;
+    let along = |angle: f64| {
         let (sine, cosine) = occupant_units::trig::sin_cos(angle);
-        sphere.centre_from_lower_end_m + Vector3::new(r * cosine, y, r * sine)
+        radius_m * Vector3::new(cosine, 0.0, sine)
     };
+    let start = sphere.centre_from_lower_end_m + Vector3::new(PLACE[0] * r, y, PLACE[1] * r);
+    let point = |angle: f64| start + along(angle) - along(ANGLES_RAD[1]);
     let mut angles = ANGLES_RAD;
-    angles[1] += above_m / r;
+    angles[1] += above_m / radius_m;
     let [low, high] = [ANGLES_RAD[0] + EDGE_RAD, ANGLES_RAD[2] - EDGE_RAD];
     if !(low..=high).contains(&angles[1]) {
-        let mm = |angle: f64| 1e3 * r * (angle - ANGLES_RAD[1]);
+        let mm = |angle: f64| 1e3 * radius_m * (angle - ANGLES_RAD[1]);
         // of two wings of a belt the one tells it
         if side == WingSide::Right {
             return None;
