@@ -3,6 +3,7 @@
 //! All positions are our estimates for an ordinary car, from the pelvis of the seated body: metres back, outboard and
 //! down.
 
+use indexmap::IndexMap;
 use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,7 +66,11 @@ const CLAMPS: f64 = 3.0;
 const FRICTION: [f64; 3] = [0.1, 0.15, 0.25];
 
 /// Forward lean of the track's plane over the shoulder; our estimate.
-const TRACK_LEANS_RAD: f64 = 40.0 * std::f64::consts::PI / 180.0;
+const TRACK_LEANS_RAD: f64 = 25.0 * std::f64::consts::PI / 180.0;
+
+/// Points over the chest, inboard of and above the middle of its sphere, in its radii: the belt crosses the middle of the breastbone, as on
+/// the dummies of crash tests; the slopes are those of a man in an ordinary car. Ours.
+const CHEST: [(&str, f64, f64); 2] = [("breastbone", 0.0, 0.0), ("ribs", 0.256, -0.5)];
 
 /// Depth of a pelvis in a cushion, m.
 const SINKS_M: f64 = 0.03;
@@ -110,7 +115,9 @@ pub(super) fn nodes(
     let tongue = if section.locking_tongue == Some(true) { CLAMPS } else { tongue };
     let buckle =
         NodeSection { pretensioner: section.pretensioner.clone(), ..placed("buckle", said(&section.buckle, BUCKLE_M)) };
-    nodes.extend([rubs(track(body, out), shoulder), sphere("chest"), rubs(buckle, tongue)]);
+    nodes.push(rubs(track(body, out), shoulder));
+    nodes.extend(over_chest(body, out));
+    nodes.push(rubs(buckle, tongue));
     let above = section.lap_above.clone();
     let wing = |name: &str, side| NodeSection {
         name: Some(name.to_owned()),
@@ -141,6 +148,26 @@ fn adjusted_m(body: &Body) -> f64 {
     let trunk_m: f64 = trunk.map(|segment| body.segment(segment).length_m).sum();
     let [down, up] = ADJUSTS_M;
     (NOTCH_M * ((trunk_m - TRUNK_M) / NOTCH_M).round()).clamp(down, up)
+}
+
+/// Points of the webbing over the chest: on the front of its sphere, on lines from the middle of the breastbone to the shoulder and to the
+/// buckle as seen from ahead. Round the sphere itself the webbing would lie in the plane of its neighbours, beside the chest or behind it.
+fn over_chest(body: &Body, out: f64) -> [NodeSection; CHEST.len()] {
+    let chest = &body.spheres[body.sphere("chest").unwrap_or(0)];
+    let (centre, r) = (chest.centre_from_lower_end_m, chest.radius_m);
+    let share = |(plate, share): &(usize, f64)| (body.plates[*plate].name.clone(), Ratio::of_si(*share));
+    let ride: IndexMap<String, Ratio> = chest.ride.belt.iter().map(share).collect();
+    CHEST.map(|(name, inboard, up)| {
+        let normal = [(1.0 - inboard * inboard - up * up).sqrt(), out * inboard, up];
+        NodeSection {
+            name: Some(name.to_owned()),
+            on: Some(body.tree[chest.segment].name.to_owned()),
+            at: Some([0, 1, 2].map(|i| Length::of_si(centre[i] + r * normal[i]))),
+            normal: Some(normal.map(Ratio::of_si)),
+            ride: ride.clone(),
+            ..NodeSection::none()
+        }
+    })
 }
 
 /// Track across the outboard shoulder, from beside the neck over the clavicle to below the root of the arm, in a plane
