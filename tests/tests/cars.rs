@@ -122,7 +122,7 @@ fn a_driver_with_a_bag_that_is_made_up_is_held_at_the_chest_and_not_at_the_head(
     let test = Curves::open("nhtsa-10146/driver.csv");
     let car = Dummy::drive(include_str!("../../scenarios/studies/blind-cars/camry.toml"), &[&path], "", test);
     let [head, chest, pelvis] = car.felt();
-    assert!((0.45..0.60).contains(&head) && chest > 0.73 && pelvis > 0.74, "{head:.3} {chest:.3} {pelvis:.3}");
+    assert!((0.45..0.60).contains(&head) && chest > 0.71 && pelvis > 0.77, "{head:.3} {chest:.3} {pelvis:.3}");
     let hic15 = car.hic("", HicWindow::Ms15);
     assert!((300.0..600.0).contains(&hic15), "{hic15} of 140");
 }
@@ -148,4 +148,46 @@ fn chests_of_two_drivers_go_in_about_as_far_as_the_records() {
     let scenario = include_str!("../../scenarios/studies/blind-cars/camry.toml");
     let car = Dummy::drive(scenario, &set, "", Curves::open("nhtsa-10146/driver.csv"));
     assert_within("10146 before the wheel, m", deepest(&car, 0.074).0, [0.015, 0.025]);
+}
+
+/// Three occupants with nothing known but the motion, the speed, the class, the person's size and, in 7292, that belts alone held: a pelvis
+/// stays back under its lap belt as the tests' did. The wings of pelvises were set by a published skeleton, with these curves known.
+#[test]
+#[cfg_attr(not(crash_tests), ignore = "OCCUPANT_CRASH_TESTS names no folder of crash tests")]
+fn occupants_of_a_car_of_a_class_move_about_as_dummies_did() {
+    let head = "title = \"a car of a class\"\n[time]\nend = 0.16\n[output]\ninterval = \"0.2 ms\"\n[path]\nkind = \"sensors\"\n";
+    let belts = "[car.seats.driver]\nlimiter = \"4 kN\"\npretensioner = 0\n[car.bags]\ndriver = false\n";
+    let aside = "[posture]\nseat = \"passenger\"\n";
+    let taurus = motion("nhtsa-7292/vehicle.csv", "113.4 km/h", ["DSLF", "DSRF"]);
+    let camry = motion("nhtsa-10146/vehicle.csv", "57.09 km/h", ["FLLR", "FLRR"]);
+    let rated = |file: &str, path: &str, body: &str, more: &str| {
+        let scenario = format!("{head}[body]\n{body}\n{more}[car]\nclass = \"sedan\"\n");
+        let car = Dummy::drive(&scenario, &[path], "", Curves::open(file));
+        let mut all = Vec::new();
+        for (segment, place) in [("head", "HDCG"), ("upper_torso", "CHST"), ("lower_torso", "PVCN")] {
+            for (axis, sign) in [("x", 1.0), ("y", -1.0), ("z", -1.0)] {
+                let measured = car.test.column(&format!("{place}_{}L_AC", axis.to_uppercase()));
+                let measured: Vec<f64> = measured.iter().map(|a| sign * STANDARD_GRAVITY_MPS2 * a).collect();
+                all.push(car.rated(&format!("{segment}.acceleration.{axis}"), &measured));
+            }
+        }
+        all.extend(car.felt());
+        for (femur, column) in [("left_femur.axial", "FMRL_ZL_LC"), ("right_femur.axial", "FMRR_ZL_LC")] {
+            all.push(car.rated(femur, &car.test.column(column)));
+        }
+        // the mean, and that of the pelvis upward
+        [all.iter().sum::<f64>() / all.len() as f64, all[8]]
+    };
+    let (him, her) = ("nhtsa-10146/driver.csv", "nhtsa-10146/front-passenger.csv");
+    for (what, [mean, up], bounds) in [
+        ("7292", rated("nhtsa-7292/driver.csv", &taurus, "preset = \"male50\"", belts), [0.6, 0.62]),
+        ("7292, dummy", rated("nhtsa-7292/driver.csv", &taurus, "dummy = \"hybrid3_50m-like\"", belts), [0.55, 0.58]),
+        ("10146", rated(him, &camry, "preset = \"male50\"", ""), [0.55, 0.6]),
+        ("10146, dummy", rated(him, &camry, "dummy = \"hybrid3_50m-like\"", ""), [0.52, 0.6]),
+        ("10146, beside him", rated(her, &camry, "preset = \"female05\"", aside), [0.48, 0.48]),
+        ("10146, dummy beside him", rated(her, &camry, "dummy = \"hybrid3_5f-like\"", aside), [0.465, 0.42]),
+    ] {
+        println!("{what}: {mean:.3} {up:.3}");
+        assert!(mean > bounds[0] && up > bounds[1], "{what}: {mean:.3} {up:.3}");
+    }
 }
