@@ -68,3 +68,19 @@ impl Recorder for Last {
         Ok(Flow::Continue)
     }
 }
+
+/// Webbing `strap` and retractor `reel`, whose spool pulls with a constant tension and never locks.
+pub const PULLED: &str = r#"
+[webbings.strap]
+strain = [0, 0.1]
+force = [0, 11000]
+
+[triggers.never]
+kind = "time"
+at = "9 s"
+
+[retractors.reel]
+on_spool = "2 m"
+spool_tension = "2 kN"
+lock = { trigger = "never", payout = 0 }
+"#;

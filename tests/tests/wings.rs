@@ -7,7 +7,7 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::{assert_below, assert_within};
-use occupant_tests::room::{ends_alike_side_by_side, setup};
+use occupant_tests::room::{PULLED, ends_alike_side_by_side, setup};
 
 /// A pelvis that is held, a lap belt at a constant tension whose ends pull straight back, at an angle below the level.
 const HELD: &str = r#"
@@ -20,19 +20,6 @@ contact = { bodies = [] }
 mount = { segment = "lower_torso", frame = "space", point = [0, 0, 0], place = [0, 0, 0] }
 body = { preset = "male50", abdomen = "person" }
 joints = { preset = "gebod" }
-
-[webbings.strap]
-strain = [0, 0.1]
-force = [0, 11000]
-
-[triggers.never]
-kind = "time"
-at = "9 s"
-
-[retractors.reel]
-on_spool = "2 m"
-spool_tension = "2 kN"
-lock = { trigger = "never", payout = 0 }
 
 [belts.lap]
 webbing = "strap"
@@ -55,7 +42,7 @@ fn held(below_rad: f64, more: &[&str]) -> Model {
 }
 
 fn held_text(below_rad: f64) -> String {
-    let body = setup(HELD, &[]).body;
+    let body = setup(&[HELD, PULLED].concat(), &[]).body;
     let sphere = &body.spheres[body.sphere("pelvis").unwrap()];
     let (c, r) = (sphere.centre_from_lower_end_m, sphere.radius_m);
     let anchor = |side: f64| {
@@ -63,7 +50,7 @@ fn held_text(below_rad: f64) -> String {
         let z = c.z + r * PLACE - 0.6 * below_rad.sin();
         format!("[{x}, {}, {}]", -side * 0.95 * r, -z)
     };
-    HELD.replace("[-0.5, -0.1, 0]", &anchor(1.0)).replace("[-0.5, 0.1, 0]", &anchor(-1.0))
+    [HELD, PULLED].concat().replace("[-0.5, -0.1, 0]", &anchor(1.0)).replace("[-0.5, 0.1, 0]", &anchor(-1.0))
 }
 
 const CHANNELS: [&str; 6] = [
@@ -109,6 +96,16 @@ fn a_belt_slides_off_a_wing_beyond_the_cone_of_friction() {
         assert_eq!((last == 0.0, told), (slides, 2 * usize::from(slides)), "{below}: {last} N, {events:?}");
         assert_eq!(caveats.iter().any(|name| name == "submarining_left"), slides, "{caveats:?}");
         assert_eq!(caveats.iter().any(|name| name == "submarining_right"), slides, "{caveats:?}");
+    }
+}
+
+/// Webbing that pulls a pelvis ahead lifts off its wings, unless it pulls as lightly as a belt that tightens in rebound.
+#[test]
+fn a_light_pull_lifts_no_webbing_off_a_wing() {
+    for (tension, lifts) in [("400 N", false), ("2 kN", true)] {
+        let (.., events) = traced(&held(std::f64::consts::PI, &[&format!("retractors.reel.spool_tension={tension}")]));
+        let told = events.iter().filter(|event| event.contains("iliac wing")).count();
+        assert_eq!(told, 2 * usize::from(lifts), "{tension}: {events:?}");
     }
 }
 
@@ -241,7 +238,7 @@ fn a_lap_belt_over_plain_points_of_the_pelvis_is_told_of() {
 #[test]
 fn wings_that_make_no_sense_are_refused() {
     let refused = |old: &str, new: &str, words: &str| {
-        let text = match std::panic::catch_unwind(|| setup(&HELD.replace(old, new), &[])) {
+        let text = match std::panic::catch_unwind(|| setup(&[HELD, PULLED].concat().replace(old, new), &[])) {
             Ok(setup) => match Model::new(setup) {
                 Ok(_) => "nothing was refused".to_owned(),
                 Err(problems) => problems.to_string(),

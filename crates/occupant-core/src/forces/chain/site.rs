@@ -194,9 +194,7 @@ impl<S: Scalar<Mask = bool>> NodeLaw<S> {
             SiteLaw::Segment(_, _, Some(_)) if !is_torn => Some(passes(S::zero(), before.across, now.across)),
             SiteLaw::Sphere(_) if before.is_on() => Some(passes(S::zero(), -before.across, -now.across)),
             SiteLaw::Sphere(_) => Some(passes(S::zero(), before.across, now.across)),
-            SiteLaw::Track(_, track) if now.way.gt(track.length) && !before.way.gt(track.length) => {
-                Some(passes(track.length, before.way, now.way))
-            }
+            SiteLaw::Track(_, track) if now.way.gt(track.length) => Some(passes(track.length, before.way, now.way)),
             _ => None,
         }
     }
@@ -415,9 +413,9 @@ impl<S: Scalar> NodeLaw<S> {
                 past.lost += (across + past.across) * (way - past.way) * S::of(0.5);
                 past.across = across;
                 past.slide(S::select(across.lt(o), -speed, speed), at.frames.time - since);
-                // a light pull, such as that of a belt that tightens in rebound, takes none off a wing
-                let least = track.wing.map_or(S::truth(true), |_| force.norm_squared().gt(S::of(LEAST_N * LEAST_N)));
-                let leaves = (out.dot(force).gt(o) | way.gt(track.length)) & least;
+                // a light pull, such as that of a belt that tightens in rebound, lifts none off a wing
+                let least = S::of(if track.wing.is_some() { LEAST_N } else { 0.0 });
+                let leaves = out.dot(force).gt(least) | way.gt(track.length);
                 match &track.then {
                     Some(_) => past.hand_over(leaves),
                     None => leaves,
