@@ -181,11 +181,11 @@ fn occupants_of_a_car_of_a_class_move_about_as_dummies_did() {
     let (him, her) = ("nhtsa-10146/driver.csv", "nhtsa-10146/front-passenger.csv");
     for (what, [mean, up], bounds) in [
         ("7292", rated("nhtsa-7292/driver.csv", &taurus, "preset = \"male50\"", belts), [0.6, 0.62]),
-        ("7292, dummy", rated("nhtsa-7292/driver.csv", &taurus, "dummy = \"hybrid3_50m-like\"", belts), [0.55, 0.58]),
+        ("7292, dummy", rated("nhtsa-7292/driver.csv", &taurus, "dummy = \"hybrid3_50m-like\"", belts), [0.57, 0.58]),
         ("10146", rated(him, &camry, "preset = \"male50\"", ""), [0.55, 0.6]),
         ("10146, dummy", rated(him, &camry, "dummy = \"hybrid3_50m-like\"", ""), [0.52, 0.6]),
         ("10146, beside him", rated(her, &camry, "preset = \"female05\"", aside), [0.48, 0.48]),
-        ("10146, dummy beside him", rated(her, &camry, "dummy = \"hybrid3_5f-like\"", aside), [0.49, 0.48]),
+        ("10146, dummy beside him", rated(her, &camry, "dummy = \"hybrid3_5f-like\"", aside), [0.51, 0.32]),
     ] {
         assert_within(what, mean, [bounds[0], 1.0]);
         assert_within(&format!("{what}, pelvis upward"), up, [bounds[1], 1.0]);

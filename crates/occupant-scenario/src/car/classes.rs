@@ -17,13 +17,26 @@
 //! and what is said of panel and bolster are estimates: no table was found. Knees of drivers were 200 mm from the bolster in the mean, in a
 //! sedan, a crossover and a pickup (P. Atkinson et al., SAE 2009-01-0390).
 
-use crate::sections::{CarClass, CarSection, si_or};
+use crate::sections::{CarClass, CarSection, DummyChoice, si_or};
 use occupant_units::trig;
 
 /// Stature for which the driver's seat is at its design position, m: the mean of women and men.
 pub(super) const MEAN_STATURE_M: f64 = 1.69;
 /// Rearward shift of a driver's seat per stature; SAE J4004.
-pub(super) const TRACK_PER_STATURE: f64 = 0.433;
+const TRACK_PER_STATURE: f64 = 0.433;
+/// Half the travel of a front seat, m; an estimate.
+const HALF_TRAVEL_M: f64 = 0.12;
+
+/// Usual distance of a front seat behind its design position, m. Dummies sit as in FMVSS 208: the 5th-percentile female all the way
+/// forward (S16), others in the middle (S8.1.2). A person who drives sits as SAE J4004 says. Passengers' seats are not moved: they stood
+/// rearward of the middle in 92 % of the frames of a study in traffic (M. P. Reed, S. M. Ebert, M. L. H. Jones: UMTRI-2020-2).
+pub(super) fn usual_track_m(rider: &super::Rider) -> f64 {
+    match rider.dummy {
+        Some(DummyChoice::HybridIii5F) => -HALF_TRAVEL_M,
+        None if rider.seat == "driver" => TRACK_PER_STATURE * (rider.stature_m - MEAN_STATURE_M),
+        _ => 0.0,
+    }
+}
 
 /// Lengths in m, angles in degrees.
 #[derive(Clone, Copy, Debug)]

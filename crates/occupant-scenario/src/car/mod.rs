@@ -168,6 +168,8 @@ pub(super) struct Rider {
     seat: String,
     /// Standing height, m.
     stature_m: f64,
+    /// The dummy that it is.
+    dummy: Option<DummyChoice>,
     /// Missing properties of his body.
     lacks: Lacks,
 }
@@ -246,19 +248,20 @@ fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option
     let flesh = is_person
         && person.is_some()
         && !says(body, &["dummy", "chest", "pelvis", "abdomen", "segments", "segment_count"]);
-    let is_dummy = section.and_then(|own| own.dummy).is_some_and(|dummy| dummy != DummyChoice::HybridIii6C);
+    let dummy = section.and_then(|own| own.dummy);
+    let is_adult_dummy = dummy.is_some_and(|dummy| dummy != DummyChoice::HybridIii6C);
     let lacks = Lacks {
         body: !says(body, &["preset", "dummy", "sex", "stature", "mass", "segments", "joints"]),
         joints: !says(joints, &["preset"]) && !says(body, &["joints", "dummy"]),
         flesh,
-        pelvis: flesh || (is_dummy && !says(body, &["pelvis", "segments"])),
+        pelvis: flesh || (is_adult_dummy && !says(body, &["pelvis", "segments"])),
         spheres: !says(body, &["sphere_set", "segments"]),
         arms: !says(own.get("posture"), &["upper_arms", "elbows", "left_upper_arm", "right_upper_arm"]),
         posture: !says(Some(own), &["initial_state", "mount", "stance"]),
     };
     let stature_m = person.map_or(classes::MEAN_STATURE_M, |person| person.stature_m);
     let vehicle = vehicle.map(str::to_owned);
-    Some(Rider { prefix: prefix.to_owned(), vehicle, seat: seat.to_owned(), stature_m, lacks })
+    Some(Rider { prefix: prefix.to_owned(), vehicle, seat: seat.to_owned(), stature_m, dummy, lacks })
 }
 
 /// A car with all its dimensions.

@@ -50,8 +50,7 @@ impl Car<'_> {
     /// The seat of this name.
     pub(super) fn placed(&self, name: &'static str, row: usize, side: f64, rider: Option<&Rider>) -> Seat {
         let own = self.seat(name, row, rider.is_some());
-        let by_stature = |rider: &Rider| classes::TRACK_PER_STATURE * (rider.stature_m - classes::MEAN_STATURE_M);
-        let usual = rider.filter(|_| name == "driver").map_or(0.0, by_stature);
+        let usual = rider.filter(|_| row == 0).map_or(0.0, classes::usual_track_m);
         let m = &self.measures;
         let lateral = if row == 0 { side * self.drivers_side() } else { side };
         let y = si_or(&own.y, lateral * m.seat_offset);

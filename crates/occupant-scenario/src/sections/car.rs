@@ -219,7 +219,8 @@ pub(crate) enum CarBelt {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CarSeatSection {
-    /// Distance behind its design position. If absent, by stature for the driver (SAE J4004), else 0.
+    /// Distance behind its design position. If absent, by stature for a person who drives (SAE J4004), -120 mm for a small
+    /// female dummy in front (FMVSS 208), else 0.
     pub(crate) track: Option<Length>,
     /// Height above its design position; 0 if absent.
     pub(crate) height: Option<Length>,

@@ -66,18 +66,32 @@ fn a_number_set_afterwards_is_one_that_was_written() {
     assert!(of(set) == of(written));
 }
 
+/// How far ahead the cushion of an occupied seat reaches, m.
+fn ahead(seat: &str, body: &str) -> f64 {
+    let text = of("") + &format!("[posture]\nseat = \"{seat}\"\n[body]\n{body}\n");
+    let mut draft = crate::Draft::read(&text, crate::Format::Toml, "s.toml").unwrap();
+    let found = draft.get(&format!("solids.{seat}_foam.profile[1][0]")).unwrap();
+    let placed_text::Value::String(text) = &found[0].1 else { panic!("{found:?}") };
+    text.trim_end_matches(" m").parse::<f64>().unwrap()
+}
+
 #[test]
 fn the_seat_of_a_tall_driver_stands_farther_back() {
-    let ahead = |body: &str| {
-        let text = of("") + "[body]\n" + body + "\n[joints]\npreset = \"person\"\n";
-        let mut draft = crate::Draft::read(&text, crate::Format::Toml, "s.toml").unwrap();
-        let found = draft.get("solids.driver_foam.profile[1][0]").unwrap();
-        let placed_text::Value::String(text) = &found[0].1 else { panic!("{found:?}") };
-        text.trim_end_matches(" m").parse::<f64>().unwrap()
-    };
-    let tall = ahead("sex = \"male\"\nstature = \"1.88 m\"\nmass = \"90 kg\"");
-    let short = ahead("sex = \"female\"\nstature = \"1.52 m\"\nmass = \"50 kg\"");
+    let tall = ahead("driver", "sex = \"male\"\nstature = \"1.88 m\"\nmass = \"90 kg\"");
+    let short = ahead("driver", "sex = \"female\"\nstature = \"1.52 m\"\nmass = \"50 kg\"");
     assert!((short - tall - 0.433 * (1.88 - 1.52)).abs() < 1e-12, "{short} {tall}");
+}
+
+#[test]
+fn dummies_sit_where_crash_tests_put_them() {
+    for seat in ["driver", "passenger", "rear_left"] {
+        let of = |dummy: &str| ahead(seat, &format!("dummy = \"{dummy}\""));
+        let moved = of("hybrid3_5f-like") - of("hybrid3_50m-like");
+        let expected = if seat == "rear_left" { 0.0 } else { 0.12 };
+        assert!((moved - expected).abs() < 1e-12, "{seat}: {moved}");
+    }
+    let person = ahead("passenger", "preset = \"female05\"");
+    assert!((person - ahead("passenger", "dummy = \"hybrid3_50m-like\"")).abs() < 1e-12);
 }
 
 #[test]
