@@ -16,6 +16,10 @@
 //! ```
 //!
 //! the mean of one over the number of spheres that a point of k is in: exact of two, and of any number in one place.
+//!
+//! The force beside each other is ∂V/∂d (x_k − x_l − ∇s (s_k − s_l))/d. At the rim of a dome |∇s| > 1: d² can be negative there,
+//! which is d = 0, and close to that the vector is many times as long as d. It counts at most as three times d, and not at all
+//! where d does not change.
 
 use super::MOST_SPHERES;
 use super::shape::section;
@@ -27,6 +31,8 @@ use crate::motion::vector::V3;
 const CROWD: f64 = 0.6;
 /// Lateral distance below which two centres have no direction, m.
 const NEAR_M: f64 = 1e-4;
+/// Largest length of a vector beside each other, relative to d.
+const MOST_ASIDE: f64 = 3.0;
 /// Number of spheres of most bags, for smaller buffers.
 const FEW: usize = 8;
 
@@ -71,13 +77,15 @@ pub(super) struct Union<S> {
     pub(super) area: S,
 }
 
-/// An overlapping pair: indices, V_kl, its derivatives by both depths, and that by d over d.
+/// An overlapping pair: indices, V_kl, its derivatives by both depths, and that by d over d; square of the longest vector beside each
+/// other, m².
 #[derive(Clone, Copy)]
 struct Pair<S> {
     of: [usize; 2],
     volume: S,
     by_depth: [S; 2],
     by_distance: S,
+    longest: S,
 }
 
 /// Σ f and Σ f² of a sphere, then φ and its derivatives by both.
@@ -104,7 +112,7 @@ fn unite_of<S: Scalar, const SPHERES: usize, const PAIRS: usize>(caps: &[Cap<S>]
     let o = S::zero();
     let mut union = Union { slopes: [(o, V3::zero()); MOST_SPHERES], volume: o, rate: o, area: o };
     let mut shares = [Share { sums: [o; 2], part: S::one(), slopes: [o; 2] }; SPHERES];
-    let mut pairs = [Pair { of: [0; 2], volume: o, by_depth: [o; 2], by_distance: o }; PAIRS];
+    let mut pairs = [Pair { of: [0; 2], volume: o, by_depth: [o; 2], by_distance: o, longest: o }; PAIRS];
     let count = meet(caps, face, &mut shares, &mut pairs);
     for (i, (cap, share)) in caps.iter().zip(&mut shares).enumerate() {
         let mut own = cap.area;
@@ -148,11 +156,13 @@ fn meet<S: Scalar>(caps: &[Cap<S>], face: Option<S>, shares: &mut [Share<S>], pa
             if !S::any(meets) {
                 continue;
             }
+            let longest = S::select(squared.gt(o), d * S::of(MOST_ASIDE * MOST_ASIDE), o);
             let d = d.sqrt();
             let [volume, by_one, by_two, by_d] = common(one, two, face, d);
             let (volume, by_d) = (S::select(meets, volume, o), S::select(meets, by_d, o));
             let (by_one, by_two) = (S::select(meets, by_one, o), S::select(meets, by_two, o));
-            pairs[count] = Pair { of: [k, l], volume, by_depth: [by_one, by_two], by_distance: by_d / d };
+            let by_depth = [by_one, by_two];
+            pairs[count] = Pair { of: [k, l], volume, by_depth, by_distance: by_d / d, longest };
             count += 1;
             for (i, cap) in [(k, one), (l, two)] {
                 let part = S::select(meets, volume / cap.volume, o);
@@ -203,13 +213,17 @@ impl<S: Scalar> Union<S> {
     /// Adds the effect of a pair, whose overlap has this derivative.
     #[inline(always)]
     fn bear(&mut self, one: &Cap<S>, two: &Cap<S>, pair: &Pair<S>, weight: S) {
-        let (aside, [k, l]) = (weight * pair.by_distance, pair.of);
+        let [k, l] = pair.of;
         let (beside, deeper) = (one.seen - two.seen, one.distance - two.distance);
+        let [from_one, from_two] = [beside - one.gradient * deeper, beside - two.gradient * deeper];
+        let squared = from_one.norm_squared().max(from_two.norm_squared());
+        let part = S::select(pair.longest.lt(squared), (pair.longest / squared).sqrt(), S::one());
+        let aside = weight * pair.by_distance * part;
         let [by_one, by_two] = pair.by_depth;
         self.slopes[k].0 += by_one * weight;
         self.slopes[l].0 += by_two * weight;
-        self.slopes[k].1 += (beside - one.gradient * deeper) * aside;
-        self.slopes[l].1 -= (beside - two.gradient * deeper) * aside;
+        self.slopes[k].1 += from_one * aside;
+        self.slopes[l].1 -= from_two * aside;
         // s changes by −δ̇, as the envelope unfolds too
         let apart = beside.dot(one.velocity - two.velocity) + deeper * (one.closing - two.closing);
         self.rate += aside * apart;

@@ -210,3 +210,21 @@ fn pictures_show_a_bag_pressed_in() {
         assert!(moved > 3, "{moved}");
     }
 }
+
+/// At the rim of a dome depths can differ by more than the distance. Forces beside each other stay as large as the discs.
+#[test]
+fn spheres_at_a_rim_press_no_more_than_their_discs() {
+    let rim = v3(0.9, 0.8, 0.0);
+    let mut most: f64 = 0.0;
+    for i in 0..200 {
+        let off = 0.06 * f64::from(i) / 150.0;
+        let mut both = [cap([0.0, 0.0, 0.05], 0.1, None), cap([0.0, 0.0, 0.05 + off], 0.1, None)];
+        for (cap, y) in both.iter_mut().zip([0.0, 0.06]) {
+            (cap.seen, cap.gradient) = (v3(0.0, y, 0.0), rim);
+        }
+        let union = unite(&both, None);
+        most = most.max(union.slopes[1].1.norm_squared().sqrt() / union.area);
+        assert!(off < 0.0601 || union.slopes[1].1.norm_squared() == 0.0, "{off}: the volume does not change");
+    }
+    assert!((0.1..1.5).contains(&most), "{most}");
+}
