@@ -25,13 +25,15 @@ const VECTORS: [(&str, Unit, bool); 7] = [
 const FEMURS: [&str; 2] = ["right_femur.axial", "left_femur.axial"];
 /// Number of vectors for which a resultant suffices.
 const ACCELERATIONS: usize = 3;
+/// Vectors of which measures use the resultant, or all axes.
+const WITH_RESULTANT: [&str; 5] = [VECTORS[0].0, VECTORS[1].0, VECTORS[2].0, VECTORS[3].0, VECTORS[4].0];
 
 /// Destination of a signal.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
     /// Index in [`Signals::all_mut`], and factor on its values.
     Common(usize, f64),
-    /// X of an acceleration known only by its resultant.
+    /// Resultant of the acceleration with this index.
     Resultant(usize),
     Special(Special),
 }
@@ -61,11 +63,16 @@ impl Instruments {
         let mut found = pairs(recording, &wanted, maps, seat, &mut notes)?;
         found.retain(|pair| is_whole(pair, &mut notes));
         let Some(first) = found.first() else {
+            let file = recording.path.display();
+            if !notes.is_empty() {
+                let what = format!("{file} has no complete signal for any injury measure: {}", notes.join("; "));
+                return Err(Failure::with_help(what, "fill or cut what is missing in the table"));
+            }
             let names: Vec<&str> = recording.signals.iter().take(8).map(|signal| signal.name.as_str()).collect();
             return Err(Failure::with_help(
-                format!("{} has no signal for any injury measure", recording.path.display()),
+                format!("{file} has no signal for any injury measure"),
                 &format!(
-                    "it has {}; assign them with --map, such as '{}[g]=head.acceleration.x'",
+                    "it has {}; assign them with --map, such as '{}=head.acceleration.x'",
                     names.join(", "),
                     names.first().unwrap_or(&"column")
                 ),
@@ -85,9 +92,26 @@ impl Instruments {
             ));
         }
         let signals = Signals { start_s: first.time_s[0] + shift_s, interval_s, ..filled(&found, &goals) };
-        let read = found.iter().map(|pair| (goals[pair.channel].0.clone(), pair.signal.clone())).collect();
+        let read: Vec<_> = found.iter().map(|pair| (goals[pair.channel].0.clone(), pair.signal.clone())).collect();
+        notes.extend(WITH_RESULTANT.iter().filter_map(|name| incomplete(name, &read)));
         Ok(Instruments { signals, read, notes })
     }
+
+    /// Times of the first and the last sample, s.
+    pub fn span_s(&self) -> [f64; 2] {
+        let Signals { start_s, interval_s, .. } = self.signals;
+        [start_s, start_s + self.signals.len().saturating_sub(1) as f64 * interval_s]
+    }
+}
+
+/// What to say of a vector of which neither all axes nor the resultant were read.
+fn incomplete(name: &str, read: &[(String, String)]) -> Option<String> {
+    let has = |axis: &str| read.iter().any(|(goal, _)| goal.strip_prefix(name) == Some(axis));
+    let missing: Vec<&str> = [".x", ".y", ".z"].into_iter().filter(|axis| !has(axis)).collect();
+    let is_part = (1..3).contains(&missing.len()) && !has(".resultant");
+    is_part.then(|| {
+        format!("{name} has no {}: measures of its resultant are left out", missing.join(", ").replace('.', ""))
+    })
 }
 
 /// Whether a signal has all values; if not, that is noted.
@@ -127,7 +151,7 @@ fn goals() -> Vec<(String, Unit, Goal)> {
             goals.push((format!("{name}.{letter}"), unit, Goal::Common(3 * v + axis, sign)));
         }
         if v < ACCELERATIONS {
-            goals.push((format!("{name}.resultant"), unit, Goal::Resultant(3 * v)));
+            goals.push((format!("{name}.resultant"), unit, Goal::Resultant(v)));
         }
     }
     for (side, name) in FEMURS.into_iter().enumerate() {
@@ -151,12 +175,76 @@ fn filled(found: &[Pair], goals: &[(String, Unit, Goal)]) -> Signals {
         }
     }
     for pair in found {
-        let Goal::Resultant(x) = goal(pair) else { continue };
-        if (x..x + 3).any(|axis| common[axis].iter().all(|value| value.is_nan())) {
-            common[x].clone_from(&pair.values);
-            common[x + 1..x + 3].iter_mut().for_each(|values| *values = vec![0.0; length]);
+        let Goal::Resultant(v) = goal(pair) else { continue };
+        if common[3 * v..3 * v + 3].iter().any(|values| values.iter().all(|value| value.is_nan())) {
+            signals.resultants[v] = Some(pair.values.clone());
         }
     }
     signals.all_mut().zip(common).for_each(|(own, values)| *own = values);
     signals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crash_measures::injury::{Filtering, Options, assess};
+    use crash_measures::measure::Dummy;
+    use crash_measures::signal::CfcFamily;
+    use occupant_files::signals::Signal;
+    use std::collections::BTreeMap;
+    use std::f64::consts::PI;
+
+    /// Instruments of a table at 10 kHz, of 300 ms; each column is a half-sine of 40 ms with this peak, SI units.
+    fn read(columns: &[(&str, f64)]) -> Result<Instruments, Failure> {
+        let time_s: Vec<f64> = (0..3000).map(|i| f64::from(i) * 1e-4).collect();
+        let pulse = |t: f64| if (0.05..0.09).contains(&t) { (PI * (t - 0.05) / 0.04).sin() } else { 0.0 };
+        let signals = columns.iter().map(|(name, peak)| Signal {
+            name: (*name).to_owned(),
+            code: None,
+            unit: None,
+            scale: None,
+            time_s: time_s.clone(),
+            values: time_s.iter().map(|t| peak * pulse(*t)).collect(),
+            place: "column".to_owned(),
+        });
+        let (path, sha256, notes) = ("test.csv".into(), String::new(), Vec::new());
+        Instruments::of(&Recording { path, sha256, signals: signals.collect(), notes }, &[], '1', 0.0)
+    }
+
+    fn measures(columns: &[(&str, f64)]) -> BTreeMap<String, f64> {
+        let filtering = Filtering::Classes(CfcFamily::SaeJ211);
+        let options = Options { filtering, dummy: Dummy::BioRidIi, ..Options::default() };
+        let found = assess(&read(columns).unwrap().signals, &options);
+        found.into_iter().filter_map(|m| Some((m.name.to_owned(), m.value?))).collect()
+    }
+
+    #[test]
+    fn a_neck_without_side_loads_is_filtered_and_judged() {
+        let some = [("neck.force.x", 200.0), ("neck.force.z", 2000.0), ("neck.moment.y", 40.0)];
+        let others = [("neck.force.y", 0.0), ("neck.moment.x", 0.0), ("neck.moment.z", 0.0)];
+        let (part, whole) = (measures(&some), measures(&[some, others].concat()));
+        for name in ["nij", "neck_tension", "neck_compression", "neck_flexion", "neck_extension"] {
+            assert_eq!(part.get(name), whole.get(name), "{name}");
+        }
+        assert!(part["neck_tension"] > 1900.0);
+    }
+
+    #[test]
+    fn a_resultant_says_nothing_of_an_axis() {
+        let (t1, ahead) = (Special::T1.to_string(), ("head.acceleration.x", 20.0));
+        let (t1, resultant) = ((t1.as_str(), 50.0), ("head.acceleration.resultant", 80.0));
+        let [x, both, alone] =
+            [vec![t1, ahead], vec![t1, ahead, resultant], vec![t1, resultant]].map(|all| measures(&all));
+        assert_eq!((x.get("nic"), x.get("hic15")), (both.get("nic"), None));
+        assert_eq!((alone.get("nic"), alone.get("hic15")), (None, both.get("hic15")));
+        assert!(x["nic"] > 1.0 && both["hic15"] > 1.0);
+    }
+
+    #[test]
+    fn what_is_incomplete_or_there_twice_is_said() {
+        let notes = read(&[("head.acceleration.x", 1.0), ("head.acceleration.z", 1.0)]).unwrap().notes;
+        assert!(notes.iter().any(|note| note.starts_with("head.acceleration has no y")), "{notes:?}");
+        let twice = read(&[("head.acceleration.x", 1.0), ("head.acceleration.x", 2.0)]).unwrap_err();
+        assert!(format!("{twice:?}").contains("more than one signal for head.acceleration.x"), "{twice:?}");
+    }
 }

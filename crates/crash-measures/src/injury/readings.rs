@@ -71,7 +71,10 @@ impl Readings {
         let known = signals.peaks.filter(|_| options.filtering == Filtering::None);
         let peaks = known.map(|peaks| peaks.map(|peak| Peak { time_s: peak.time_s - signals.start_s, ..peak }));
         let acceleration = |components, class, which: Extreme| {
-            let resultant = all(components, class).and_then(|[x, y, z]| resultant(&x, &y, &z));
+            let resultant = match &signals.resultants[which as usize] {
+                Some(alone) => one(alone, class),
+                None => all(components, class).and_then(|[x, y, z]| resultant(&x, &y, &z)),
+            };
             let mut acceleration = Acceleration::new(resultant, dt_s);
             if let Some(peak) = peak_of(&peaks, which) {
                 acceleration.peak = Ok(peak);
@@ -143,8 +146,10 @@ impl Acceleration {
     }
 }
 
+/// A channel that was not recorded stays without values, so that those beside it can be used.
 fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, filtering: Filtering) -> Result<Vec<f64>, SignalError> {
     match filtering {
+        _ if values.iter().all(|value| value.is_nan()) => Ok(values.to_vec()),
         Filtering::None => Ok(values.to_vec()),
         Filtering::Classes(family) => filter_cfc(values, dt_s, class, family),
     }

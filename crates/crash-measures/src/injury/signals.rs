@@ -73,6 +73,8 @@ pub struct Signals {
     pub chest_m_s2: Components,
     /// Accelerometer reading of the lower torso, m/s².
     pub pelvis_m_s2: Components,
+    /// Resultants of these three, m/s², where not all their components were recorded.
+    pub resultants: [Option<Vec<f64>>; 3],
     /// Angular velocity of the head, rad/s.
     pub head_rad_s: Components,
     /// Angular acceleration of the head, rad/s².
@@ -120,6 +122,7 @@ impl Signals {
             values.truncate(count);
         };
         half.special.values_mut().for_each(thin);
+        half.resultants.iter_mut().flatten().for_each(thin);
         half.all_mut().for_each(thin);
         half
     }

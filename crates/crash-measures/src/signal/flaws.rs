@@ -44,15 +44,21 @@ pub fn usual_interval(time_s: &[f64]) -> f64 {
     steps.get(steps.len() / 2).copied().unwrap_or(0.0)
 }
 
+/// Whether most intervals are equal, as of a recorder and not of points read from a drawing.
+#[must_use]
+pub fn is_sampled(time_s: &[f64]) -> bool {
+    let usual_s = usual_interval(time_s);
+    let steps = time_s.windows(2).map(|pair| pair[1] - pair[0]);
+    2 * steps.filter(|step| (step - usual_s).abs() <= 0.1 * usual_s).count() >= time_s.len()
+}
+
 /// Gaps in increasing times: where most intervals are equal, those 1.5 times as long; elsewhere, those ten times the
 /// usual one.
 #[must_use]
 pub fn holes(time_s: &[f64]) -> Vec<Hole> {
-    let usual_s = usual_interval(time_s);
-    let steps = || time_s.windows(2).map(|pair| pair[1] - pair[0]);
-    let equal = steps().filter(|step| (step - usual_s).abs() <= 0.1 * usual_s).count();
-    let most_s = usual_s * if 2 * equal >= time_s.len() { 1.5 } else { 10.0 };
-    let wide = steps().enumerate().filter(|(_, step)| *step > most_s);
+    let most_s = usual_interval(time_s) * if is_sampled(time_s) { 1.5 } else { 10.0 };
+    let steps = time_s.windows(2).map(|pair| pair[1] - pair[0]);
+    let wide = steps.enumerate().filter(|(_, step)| *step > most_s);
     wide.map(|(after, _)| Hole { after, from_s: time_s[after], to_s: time_s[after + 1] }).collect()
 }
 

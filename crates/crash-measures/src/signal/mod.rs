@@ -22,7 +22,7 @@ pub use cfc::{CfcFamily, ChannelClass, cfc_coefficients, filter_cfc};
 pub(crate) use check::{require_positive, require_same_length, require_samples};
 pub use check::{uniform_interval, whole_steps};
 pub use error::SignalError;
-pub use flaws::{Hole, Plateau, bridged, holes, plateau, resolution, rounding_noise, usual_interval};
+pub use flaws::{Hole, Plateau, bridged, holes, is_sampled, plateau, resolution, rounding_noise, usual_interval};
 pub use integral::{CumulativeIntegral, integrate};
 pub use low_pass::{Continuation, LowPass};
 pub use moving_average::{MovingAverage, WindowExtreme, moving_average};

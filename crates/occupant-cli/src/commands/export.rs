@@ -96,6 +96,11 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     let Some(form) = form else {
         return export_mme(args, &output, &results, &histories);
     };
+    if args.axes != AxisChoice::Segment {
+        note(
+            "y and z of segments have the signs of SAE J211; `compare`, `measures` and `fit` read tables with the axes of segments",
+        );
+    }
     let histories = args.axes.turned(histories);
     let coefficients = (treatment.filter != Filter::None).then(|| family_name(treatment.family));
     let mut about = About::new(&results, &histories, args.units, treatment.filter.words(), coefficients);

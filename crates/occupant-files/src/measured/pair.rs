@@ -182,10 +182,10 @@ fn signal_for<'a>(
             _ => Err(Failure::plain(format!("--map: {file} has more than one column `{}`", map.column))),
         };
     }
-    if let Some(signal) = recording.signals.iter().find(|s| s.name == wanted.name) {
-        return Ok(Some((signal, None, 1.0)));
-    }
     let sign = |s: &Signal| {
+        if s.name == wanted.name {
+            return Some(1.0);
+        }
         let code = s.code.as_ref()?;
         code.sign_for(&wanted.name, seat).or_else(|| code.sign_at(wanted.place.as_ref()?, seat))
     };
@@ -193,11 +193,16 @@ fn signal_for<'a>(
     match fitting.as_slice() {
         [] => Ok(None),
         [one] => Ok(Some(*one)),
-        [(first, ..), ..] => {
-            let codes: Vec<&str> = fitting.iter().map(|(s, ..)| s.name.as_str()).collect();
+        [(first, ..), (second, ..), ..] => {
+            let names: Vec<&str> = fitting.iter().map(|(s, ..)| s.name.as_str()).collect();
+            let help = if first.name == second.name {
+                "rename one of them, or remove it".to_owned()
+            } else {
+                format!("choose one with --map {}={}", first.name, wanted.name)
+            };
             Err(Failure::with_help(
-                format!("{file} has more than one signal for {}: {}", wanted.name, codes.join(", ")),
-                &format!("choose one with --map {}={}", first.name, wanted.name),
+                format!("{file} has more than one signal for {}: {}", wanted.name, names.join(", ")),
+                &help,
             ))
         }
     }
@@ -212,7 +217,12 @@ fn factor(
     notes: &mut Vec<String>,
 ) -> Result<f64, Failure> {
     let (scale, written) = match unit {
-        Some(unit) => (scale_of(unit), Some(unit)),
+        Some(unit) => {
+            if let Some(heading) = signal.unit.as_deref().filter(|heading| *heading != unit) {
+                notes.push(format!("{}: its heading says {heading}, --map says {unit}, which is used", signal.name));
+            }
+            (scale_of(unit), Some(unit))
+        }
         None => (signal.scale, signal.unit.as_deref()),
     };
     let Some(written) = written else {

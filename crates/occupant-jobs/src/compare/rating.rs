@@ -1,7 +1,7 @@
 //! Agreement of a computed with a measured history: ISO/TS 18571, CORA, Sprague–Geers and ANOVA of one pair.
 
 use crash_measures::correlation::{CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers};
-use crash_measures::signal::{Interpolant, Interpolation, whole_steps};
+use crash_measures::signal::{Hole, Interpolant, Interpolation, holes, is_sampled, usual_interval, whole_steps};
 use placed_text::number;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -253,7 +253,7 @@ pub fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], S
 /// Values on the common grid: at [`RATE_HZ`] from `from_s`, interpolated linearly.
 ///
 /// # Errors
-/// A value that is missing there.
+/// A value or a row that is missing there.
 pub fn sampled(track: Track<'_>, from_s: f64, to_s: f64, samples: usize, what: &str) -> Result<Vec<f64>, String> {
     // the samples of the window and one beyond on each side
     let first = track.time_s.partition_point(|t| *t <= from_s).saturating_sub(1);
@@ -265,9 +265,22 @@ pub fn sampled(track: Track<'_>, from_s: f64, to_s: f64, samples: usize, what: &
             time_s[gap]
         ));
     }
+    if let Some(hole) = missing_rows(time_s) {
+        return Err(format!(
+            "{what} has no samples from {} to {} s; select a part without gaps with --from and --to",
+            hole.from_s, hole.to_s
+        ));
+    }
     let line = Interpolant::new(time_s, values, Interpolation::Linear);
     let line = line.map_err(|e| format!("{what}: {e}"))?;
     Ok((0..samples).map(|i| line.value_at(from_s + i as f64 / RATE_HZ)).collect())
+}
+
+/// The first place where a sampled signal lacks rows. A single one may be the clock's rounding, and points read from a drawing
+/// may be far apart.
+fn missing_rows(time_s: &[f64]) -> Option<Hole> {
+    let most_s = 2.5 * usual_interval(time_s);
+    holes(time_s).into_iter().find(|hole| is_sampled(time_s) && hole.length_s() > most_s)
 }
 
 #[cfg(test)]
@@ -308,6 +321,23 @@ mod tests {
         assert!(rate(track(&ours), track(&theirs), Window::default()).unwrap_err().contains("0.09 s"));
         let window = Window { to_s: Some(0.08), ..Window::default() };
         assert_eq!(rate(track(&ours), track(&theirs), window).unwrap().samples, 801);
+    }
+
+    #[test]
+    fn missing_rows_are_no_straight_line() {
+        let ours = grid(0.1, 1e-3, |t| 1.0 + t);
+        let without = |rows: std::ops::Range<usize>| {
+            let mut theirs = ours.clone();
+            theirs.0.drain(rows.clone());
+            theirs.1.drain(rows);
+            rate(track(&ours), track(&theirs), Window::default())
+        };
+        assert!(without(40..50).unwrap_err().contains("no samples from 0.039 to 0.05 s"));
+        assert!(without(40..41).is_ok());
+        // points read from a drawing
+        let drawn = [0.0, 0.01, 0.012, 0.015, 0.09, 0.1].map(|t| (t, 1.0 + t));
+        let drawn: (Vec<f64>, Vec<f64>) = drawn.into_iter().unzip();
+        assert!(rate(track(&ours), track(&drawn), Window::default()).is_ok());
     }
 
     #[test]

@@ -62,7 +62,7 @@ fn what(report: &Report, units: Units) -> String {
     lines.push((
         "stable",
         format!(
-            "90 % of the runs within {} % of the median, or closer than matters in practice",
+            "the middle 90 % of the runs span at most {} % of the median, or less than matters in practice",
             percent(report.within)
         ),
     ));

@@ -55,7 +55,7 @@ pub(crate) struct EnsembleArgs {
     #[arg(long, value_name = "RESULT=VALUE", requires = "ensemble")]
     limit: Vec<String>,
 
-    /// A result is stable if the middle 90% of the runs lie within this fraction of the median
+    /// A result is stable if the middle 90% of the runs span at most this fraction of the median
     #[arg(long, value_name = "FRACTION", default_value = "10%", requires = "ensemble")]
     stable_within: String,
 

@@ -41,8 +41,16 @@ struct Answer<'a> {
 impl Judged {
     fn of(file: &Path, args: &Args, options: &Options) -> Result<Self, Failure> {
         let recording = measured::read(file)?;
-        let read = Instruments::of(&recording, &args.test.map, args.test.seat, args.test.shift)?;
+        let mut read = Instruments::of(&recording, &args.test.map, args.test.seat, args.test.shift)?;
         let measures: Vec<_> = assess(&read.signals, options).into_iter().filter(is_of_test).collect();
+        let [from_s, to_s] = read.span_s();
+        let half_s = 0.5 * read.signals.interval_s;
+        let is_at = |time_s: Option<f64>, end_s: f64| time_s.is_some_and(|time_s| (time_s - end_s).abs() < half_s);
+        let is_cut = |m: &&Measure| m.name.starts_with("hic") && (is_at(m.from_s, from_s) || is_at(m.to_s, to_s));
+        let cut = measures.iter().filter(is_cut).filter(|m| m.value.is_some_and(|hic| hic >= 1.0));
+        read.notes.extend(
+            cut.map(|m| format!("{}: its interval ends with the record, so the value is at least this", m.name)),
+        );
         Ok(Judged { file: file.display().to_string(), read, measures })
     }
 
@@ -51,12 +59,10 @@ impl Judged {
     }
 
     fn answer(&self, options: &Options) -> Answer<'_> {
-        let signals = &self.read.signals;
-        let last = signals.len().saturating_sub(1) as f64;
         Answer {
             file: &self.file,
-            covers_s: [signals.start_s, signals.start_s + last * signals.interval_s],
-            interval_s: signals.interval_s,
+            covers_s: self.read.span_s(),
+            interval_s: self.read.signals.interval_s,
             dummy: options.dummy.name(),
             signals: self.read.read.iter().map(|(name, column)| [name.as_str(), column.as_str()]).collect(),
             measures: &self.measures,
