@@ -30,6 +30,9 @@ pub struct Blow {
     pub slides: bool,
 }
 
+/// Rounding of the energy lost, over the work across the contact: a full restitution loses none.
+const LOST_WITHIN: f64 = 1e-9;
+
 pub(crate) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
@@ -92,11 +95,11 @@ pub fn blow(bodies: [&Planar; 2], place_m: [f64; 2], normal_rad: f64, restitutio
     // −J·(u + ½ΔU) with the change of the velocity of approach
     let (du_n, du_t) = (k_n * p_n + k_nt * p_t, k_nt * p_n + k_t * p_t);
     let lost_j = -(p_n * (u_n + 0.5 * du_n) + p_t * (u_t + 0.5 * du_t));
-    (p_n > 0.0 && lost_j >= 0.0).then_some(Blow {
+    (p_n > 0.0 && lost_j >= -LOST_WITHIN * (p_n * u_n).abs()).then_some(Blow {
         impulse_n_s: impulse,
         delta_v_m_s: [of_first.0, of_second.0],
         delta_turning_rad_s: [of_first.1, of_second.1],
-        lost_j,
+        lost_j: lost_j.max(0.0),
         slides,
     })
 }

@@ -287,3 +287,26 @@ fn impulse_and_crush_agree() {
         assert!((quick / by_crush - 1.0).abs() < 0.05, "{quick} {by_crush} {restitution} {aside}");
     }
 }
+
+/// A full restitution at a wall sends the car back, wherever it is struck: its loss of energy is 0 but for rounding.
+#[test]
+fn a_full_restitution_rebounds() {
+    let wall = Planar {
+        mass_kg: f64::INFINITY,
+        inertia_kg_m2: f64::INFINITY,
+        at_m: [2.5, 0.0],
+        velocity_m_s: [0.0; 2],
+        turning_rad_s: 0.0,
+    };
+    for aside_m in (-90..=90).map(|i| 0.01 * f64::from(i)) {
+        let car = Planar {
+            mass_kg: 1500.0,
+            inertia_kg_m2: 2500.0,
+            at_m: [0.1, 0.0],
+            velocity_m_s: [19.8, 0.3],
+            turning_rad_s: 0.0,
+        };
+        let found = blow([&car, &wall], [2.5, aside_m], 0.0, 1.0, 0.55);
+        assert!(found.is_some_and(|blow| blow.lost_j >= 0.0 && blow.delta_v_m_s[0][0] < -19.0), "{aside_m}: {found:?}");
+    }
+}
