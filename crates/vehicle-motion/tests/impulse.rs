@@ -3,6 +3,7 @@
 mod common;
 
 use common::proof_car;
+use vehicle_motion::barrier::{Barrier, Rail, Wall};
 use vehicle_motion::driver::Driver;
 use vehicle_motion::impulse::{Planar, blow};
 use vehicle_motion::run::Start;
@@ -326,4 +327,25 @@ fn bodies_that_separate_have_no_impulse() {
         // it was 10.7 m/s
         assert!(speed < 0.01, "{normal_rad}: {speed}");
     }
+}
+
+/// Without a place, a rail is struck where the car touches it, as a wall along the same line is.
+#[test]
+fn a_rail_is_struck_where_the_car_touches_it() {
+    let start = Start { yaw_rad: 20f64.to_radians(), speed_m_s: 20.0, ..Start::default() };
+    let half = core::f64::consts::FRAC_PI_2;
+    let rail = Barrier::Rail(Rail::w_beam([[-10.0, 3.0], [40.0, 3.0]]));
+    let wall = Barrier::Wall(Wall { point_m: [0.0, 3.0], normal_rad: -half, friction: 0.55 });
+    let run = |barrier| {
+        let struck = Impact { between: (0, Partner::Barrier(0)), normal_rad: half, ..impact(0.01) };
+        let cars = vec![Entry::new(proof_car(0.7), Driver::coasting(), Begin::At(start))];
+        let world = World { cars, barriers: vec![barrier], impulses: vec![struck], ..World::default() };
+        let contacts = world.run(0.5).unwrap().contacts;
+        let struck = contacts[0].struck[0].unwrap();
+        (contacts[0].impulse_n_s, struck.yaw_rates_rad_s[1])
+    };
+    let ((at_rail, turn), (at_wall, expected)) = (run(rail), run(wall));
+    // the same but for rounding; it was struck at the origin
+    assert!((at_rail - at_wall).norm() < 1e-9 * at_wall.norm(), "{at_rail:?} {at_wall:?}");
+    assert!((turn / expected - 1.0).abs() < 1e-9 && expected < -0.5, "{turn} {expected}");
 }

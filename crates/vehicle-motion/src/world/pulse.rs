@@ -38,7 +38,7 @@ impl Pulse {
             Partner::Car(other) => other,
             Partner::Barrier(barrier) => setup.vehicles.len() + barrier,
         };
-        let place_m = impact.at_m.unwrap_or_else(|| setup.first_touch_m(car, body, poses));
+        let place_m = impact.at_m.or_else(|| setup.first_touch_m(car, body, stack, poses));
         let planar = |body: usize| match setup.vehicles.get(body) {
             Some(vehicle) => {
                 let state = &stack.cars[body];
@@ -60,8 +60,11 @@ impl Pulse {
             },
         };
         let both = [planar(car), planar(body)];
-        let found = blow([&both[0], &both[1]], place_m, impact.normal_rad, impact.restitution, impact.friction);
-        let impulse = found.map_or([0.0; 2], |blow| blow.impulse_n_s);
+        let found = place_m.and_then(|place_m| {
+            let found = blow([&both[0], &both[1]], place_m, impact.normal_rad, impact.restitution, impact.friction);
+            Some((place_m, found.ok()?.impulse_n_s))
+        });
+        let (place_m, impulse) = found.unwrap_or_default();
         let turns = [cross(both[0].arm_m(place_m), impulse), -cross(both[1].arm_m(place_m), impulse)];
         Pulse {
             bodies: [car, body],
