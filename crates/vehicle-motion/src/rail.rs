@@ -98,6 +98,19 @@ impl Beam {
         (-1..=self.count as isize).map(place).collect()
     }
 
+    /// Distance of a place in plan from its line, m.
+    pub fn off_m(&self, y: &[f64], [x_m, y_m]: [f64; 2]) -> f64 {
+        let line = self.line_m(y);
+        let off = |pair: &[[f64; 2]]| {
+            let [from, way] = [pair[0], [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]]];
+            let to = [x_m - from[0], y_m - from[1]];
+            let share = (to[0] * way[0] + to[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+            let share = share.clamp(0.0, 1.0);
+            long(to[0] - share * way[0], to[1] - share * way[1])
+        };
+        line.windows(2).map(off).fold(f64::INFINITY, f64::min)
+    }
+
     fn has_post(j: usize) -> bool {
         j.is_multiple_of(PER_POST)
     }

@@ -7,7 +7,7 @@ use vehicle_motion::barrier::{Barrier, Rail, Wall};
 use vehicle_motion::driver::Driver;
 use vehicle_motion::impulse::{Planar, blow};
 use vehicle_motion::run::Start;
-use vehicle_motion::world::{Begin, Entry, Impact, Partner, World};
+use vehicle_motion::world::{Begin, Entry, Impact, Partner, World, WorldError};
 
 const LB: f64 = 0.453_592_37;
 const FT: f64 = 0.3048;
@@ -348,4 +348,37 @@ fn a_rail_is_struck_where_the_car_touches_it() {
     // the same but for rounding; it was struck at the origin
     assert!((at_rail - at_wall).norm() < 1e-9 * at_wall.norm(), "{at_rail:?} {at_wall:?}");
     assert!((turn / expected - 1.0).abs() < 1e-9 && expected < -0.5, "{turn} {expected}");
+}
+
+/// An impact that does not act says why, and changes nothing.
+#[test]
+fn an_impact_that_does_not_act_says_why() {
+    let car = proof_car(0.7);
+    let ahead = |x_m, speed_m_s| Start { x_m, speed_m_s, ..Start::default() };
+    let run = |starts: [Start; 2], impact: Impact| {
+        let cars = starts.map(|start| Entry::new(car.clone(), Driver::coasting(), Begin::At(start)));
+        World { cars: cars.to_vec(), impulses: vec![impact], ..World::default() }.run(0.5)
+    };
+    let (meet, far) = ([ahead(0.0, 20.0), ahead(7.0, 0.0)], [ahead(0.0, 20.0), ahead(90.0, 0.0)]);
+    let straight = Impact { normal_rad: 0.0, ..impact(0.1) };
+    let at_once = Impact { time_s: Some(0.2), at_m: Some([50.0, 0.0]), ..straight };
+    let aside = Impact { normal_rad: core::f64::consts::FRAC_PI_2, ..straight };
+    let cases = [
+        (meet, straight, None),
+        (meet, aside, Some("do not close along its normal")),
+        (meet, Impact { at_m: Some([5.0, 9.0]), ..straight }, Some("8.09 m away from the outline")),
+        (far, straight, Some("outlines do not touch")),
+        (far, at_once, Some("m away from the outline")),
+        (far, Impact { at_m: None, ..at_once }, Some("m away from the outline")),
+    ];
+    for (starts, impact, why) in cases {
+        let outcome = run(starts, impact).unwrap();
+        let found: Vec<String> = outcome.missed.iter().map(|missed| missed.why.to_string()).collect();
+        assert_eq!(found.len(), usize::from(why.is_some()), "{found:?}");
+        assert!(why.is_none_or(|why| found[0].contains(why)), "{found:?}, expected {why:?}");
+        let stands = outcome.rides[1].last().velocity_m_s.norm() < 0.01;
+        assert_eq!((stands, outcome.contacts.is_empty()), (why.is_some(), why.is_some()), "{found:?}");
+    }
+    let late = run(meet, Impact { time_s: Some(0.5), ..straight });
+    assert_eq!(late.unwrap_err(), WorldError::Late { impact: 0, time_s: 0.5, end_s: 0.5 });
 }

@@ -59,7 +59,7 @@ impl Runner<'_> {
     }
 
     pub fn outcome(self, balance: f64) -> Outcome {
-        let Runner { setup, mut contacts, rides, bends, evaluations, rejected, memories, stack, .. } = self;
+        let Runner { setup, mut contacts, missed, rides, bends, evaluations, rejected, memories, stack, .. } = self;
         let damage = |i: usize| {
             let (shape, taken_j) = (&setup.shapes[i], stack.cars[i].work().crush_j);
             let mass_kg = setup.vehicles[i].mass_kg;
@@ -93,6 +93,6 @@ impl Runner<'_> {
             speed_m_s: stack.more[2 * i + 1],
         };
         let slides = memories.slides.iter().enumerate().map(slid).collect();
-        Outcome { rides, contacts, damage, slides, rails, evaluations, rejected, balance }
+        Outcome { rides, contacts, missed, damage, slides, rails, evaluations, rejected, balance }
     }
 }

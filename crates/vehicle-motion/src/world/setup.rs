@@ -307,6 +307,17 @@ impl<'a> Setup<'a> {
         Some([place.x, place.y])
     }
 
+    /// How far outside of a body's outline in plan a place lies, at least, m; 0 within it.
+    pub fn outside_m(&self, body: usize, [x, y]: [f64; 2], stack: &Stack, poses: &[Pose]) -> f64 {
+        let (pose, first) = (&poses[body], self.vehicles.len());
+        let place_m = V3::new(x, y, pose.at_m.z);
+        let rail = self.rails.iter().find(|rail| first + rail.barrier == body);
+        match rail {
+            Some(Rails { beam, at, .. }) => beam.off_m(&stack.more[at.clone()], [x, y]),
+            None => self.shapes[body].outline.gap_m(&(pose.axes.transpose() * (place_m - pose.at_m))).max(0.0),
+        }
+    }
+
     /// Deepest crush of a vehicle so far, m.
     pub fn deepest_m(&self, car: usize, memories: &Memories) -> f64 {
         let hit = self.shapes[car].nodes.iter().zip(&memories.most[car]).filter(|(_, most)| **most > 0.0);

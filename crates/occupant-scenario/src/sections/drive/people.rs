@@ -5,7 +5,7 @@ use vehicle_motion::V3;
 use vehicle_motion::barrier::Barrier;
 use vehicle_motion::body::Side;
 use vehicle_motion::run::Station;
-use vehicle_motion::world::Partner;
+use vehicle_motion::world::{Miss, Partner};
 
 use super::super::Scenario;
 use super::super::builder::Builder;
@@ -182,6 +182,28 @@ impl Solved {
                 format!("{} is beyond an end of this rail at {:.3} s, while it touches it", own.name, first.time_s);
             let expected = "a longer line: an end is a point that does not move, without a terminal";
             b.report(Problem::warning(with_key("drive.barriers", &self.barriers[number].0), found, expected));
+        }
+    }
+
+    /// Warns of impacts that did not act.
+    pub(super) fn warn_of_impacts(&self, b: &mut Builder) {
+        for missed in &self.outcome.missed {
+            let (car, partner) = self.world.impulses[missed.impact].between;
+            let partner = match partner {
+                Partner::Car(other) => &self.vehicles[other].name,
+                Partner::Barrier(number) => &self.barriers[number].0,
+            };
+            let found = format!(
+                "the impact between {} and {partner} does not act: {}; they pass through each other",
+                self.vehicles[car].name, missed.why
+            );
+            let expected = match missed.why {
+                Miss::Untouched => "paths that meet, or a `time`",
+                Miss::Separate(_) => "a `normal` along which they close, or no impact",
+                Miss::Gains(_) => "a smaller `restitution` or `friction`",
+                Miss::Away { .. } => "`at` and `time` where both meet",
+            };
+            b.report(Problem::warning(format!("drive.impacts[{}]", missed.impact), found, expected));
         }
     }
 
