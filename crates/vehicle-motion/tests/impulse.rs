@@ -382,3 +382,28 @@ fn an_impact_that_does_not_act_says_why() {
     let late = run(meet, Impact { time_s: Some(0.5), ..straight });
     assert_eq!(late.unwrap_err(), WorldError::Late { impact: 0, time_s: 0.5, end_s: 0.5 });
 }
+
+/// What an impact without duration did counts from before it: the closing speed, Δv and EES of a central impact,
+/// ½(1 − k²) m₁m₂/(m₁ + m₂) u², of which each takes half.
+#[test]
+fn an_impact_at_once_counts_from_before_it() {
+    let ahead = |x_m, speed_m_s| Start { x_m, speed_m_s, ..Start::default() };
+    let car = proof_car(0.0);
+    let cars = [ahead(0.0, 20.0), ahead(5.5, 0.0)];
+    let cars = cars.map(|start| Entry::new(car.clone(), Driver::coasting(), Begin::At(start)));
+    for time_s in [None, Some(0.0)] {
+        let at_m = Some([2.6, 0.0]);
+        let own = Impact { time_s, at_m, normal_rad: 0.0, restitution: 0.3, ..impact(0.0) };
+        let world = World { cars: cars.to_vec(), impulses: vec![own], ..World::default() };
+        let outcome = world.run(0.5).unwrap();
+        let [one, two] = outcome.contacts[0].struck.map(Option::unwrap);
+        let closing = (one.enters_m_s - two.enters_m_s).norm();
+        // nothing slows a car on ice
+        assert!((closing - 20.0).abs() < 0.01, "{closing}");
+        let (expected, ees) = (0.65 * closing, (0.5 * (1.0 - 0.09) * 0.5f64).sqrt() * closing);
+        for own in [one, two] {
+            assert!((own.delta_v_m_s.norm() - expected).abs() < 1e-6, "{own:?} {expected}");
+            assert!((own.ees_m_s - ees).abs() < 1e-6 && own.peak_m_s2.is_infinite(), "{own:?}");
+        }
+    }
+}

@@ -46,6 +46,8 @@ pub(crate) struct Runner<'a> {
     pulses: Vec<Pulse>,
     fired: Vec<bool>,
     pub missed: Vec<Missed>,
+    /// Of impacts without duration: contact, vehicle, and its motion before.
+    pub before: Vec<(usize, usize, Station)>,
     pub rides: Vec<Vec<Station>>,
     /// Lines of each rail.
     pub bends: Vec<Vec<Bend>>,
@@ -109,6 +111,7 @@ impl<'a> Runner<'a> {
             pulses: Vec::new(),
             fired: vec![false; setup.world.impulses.len()],
             missed: Vec::new(),
+            before: Vec::new(),
             rides: vec![Vec::new(); stack.cars.len()],
             bends: vec![Vec::new(); setup.rails.len()],
             stack,
@@ -359,6 +362,9 @@ impl<'a> Runner<'a> {
                 contact.until_s = end_s;
                 self.pulses.push(pulse);
             } else {
+                let number = self.contacts.len();
+                let before = pulse.cars().map(|car| (number, car, self.station(car)));
+                self.before.extend(before.collect::<Vec<_>>());
                 pulse.strike(self.setup, &mut self.stack);
             }
             self.contacts.push(contact);

@@ -185,8 +185,20 @@ impl Solved {
         }
     }
 
-    /// Warns of impacts that did not act.
+    /// Warns of impacts that did not act, and of people in one without duration.
     pub(super) fn warn_of_impacts(&self, b: &mut Builder) {
+        for (i, impact) in self.world.impulses.iter().enumerate().filter(|(_, impact)| impact.duration_s == 0.0) {
+            let (first, second) = impact.between;
+            let cars = (0..self.vehicles.len()).filter(|car| *car == first || Partner::Car(*car) == second);
+            let mut carry = cars.filter(|car| self.people.get(*car).is_some_and(Option::is_some));
+            let acts = self.outcome.missed.iter().all(|missed| missed.impact != i);
+            if let Some(car) = carry.next().filter(|_| acts) {
+                let found =
+                    format!("people in {}, whose speed jumps: no acceleration loads them", self.vehicles[car].name);
+                let expected = "a duration above 0, such as \"0.1 s\"";
+                b.report(Problem::warning(format!("drive.impacts[{i}].duration"), found, expected));
+            }
+        }
         for missed in &self.outcome.missed {
             let (car, partner) = self.world.impulses[missed.impact].between;
             let partner = match partner {
