@@ -244,6 +244,7 @@ pub(crate) fn caveats(document: &Document, solved: &Solved) -> Diagnostics {
     solved.warn_of_crush(b);
     solved.warn_of_rails(b);
     solved.warn_of_impacts(b);
+    solved.warn_of_ground(b);
     std::mem::take(&mut b.problems)
 }
 
