@@ -30,6 +30,9 @@ pub struct Blow {
     pub slides: bool,
 }
 
+/// Rounding of the energy lost, over the work across the contact: a full restitution loses none.
+const LOST_WITHIN: f64 = 1e-9;
+
 pub(crate) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
@@ -49,16 +52,40 @@ impl Planar {
     }
 }
 
+/// Why an impact has no impulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoBlow {
+    /// The bodies do not close along the normal: they separate, or slide past each other.
+    Separate,
+    /// The impulse would add energy.
+    Gains,
+}
+
+/// Closing speed along the normal, over the whole, below which bodies only slide past each other.
+const CLOSES: f64 = 1e-9;
+
 /// An impact of two bodies at a place, with the direction of the contact's normal in either sense, restitution on both
-/// components, and the largest ratio of the impulse along the contact to that across it. The sense is that in which they
-/// close; none if they do not move across the contact.
-pub fn blow(bodies: [&Planar; 2], place_m: [f64; 2], normal_rad: f64, restitution: f64, friction: f64) -> Option<Blow> {
+/// components, and the largest ratio of the impulse along the contact to that across it. The bodies tell the sense: the
+/// first lies on the side of its centre of gravity, the second on the other.
+///
+/// # Errors
+/// The bodies separate, or the impulse would add energy.
+pub fn blow(
+    bodies: [&Planar; 2],
+    place_m: [f64; 2],
+    normal_rad: f64,
+    restitution: f64,
+    friction: f64,
+) -> Result<Blow, NoBlow> {
     let [first, second] = bodies;
     let (a, b) = (first.velocity_at(place_m), second.velocity_at(place_m));
     let u = [a[0] - b[0], a[1] - b[1]];
     let (sine, cosine) = libm::sincos(normal_rad);
-    // from the second to the first: they close along it
-    let sense = if cosine * u[0] + sine * u[1] > 0.0 { -1.0 } else { 1.0 };
+    // from the second to the first; what does not move may have no centre of gravity
+    let off = |body: &Planar| if body.mass_kg.is_finite() { body.arm_m(place_m) } else { [0.0; 2] };
+    let (to_first, to_second) = (off(first), off(second));
+    let across = dot([to_second[0] - to_first[0], to_second[1] - to_first[1]], [cosine, sine]);
+    let sense = if across < 0.0 { -1.0 } else { 1.0 };
     let n = [sense * cosine, sense * sine];
     let t = [-n[1], n[0]];
     let arms = bodies.map(|body| body.arm_m(place_m));
@@ -69,8 +96,8 @@ pub fn blow(bodies: [&Planar; 2], place_m: [f64; 2], normal_rad: f64, restitutio
     };
     let (k_n, k_t, k_nt) = (k(n, n), k(t, t), k(n, t));
     let (u_n, u_t) = (dot(u, n), dot(u, t));
-    if u_n >= 0.0 {
-        return None;
+    if u_n >= -CLOSES * libm::hypot(u[0], u[1]) {
+        return Err(NoBlow::Separate);
     }
     let det = k_n * k_t - k_nt * k_nt;
     let (mut p_n, mut p_t) = ((u_t * k_nt - u_n * k_t) / det, (u_n * k_nt - u_t * k_n) / det);
@@ -92,11 +119,14 @@ pub fn blow(bodies: [&Planar; 2], place_m: [f64; 2], normal_rad: f64, restitutio
     // −J·(u + ½ΔU) with the change of the velocity of approach
     let (du_n, du_t) = (k_n * p_n + k_nt * p_t, k_nt * p_n + k_t * p_t);
     let lost_j = -(p_n * (u_n + 0.5 * du_n) + p_t * (u_t + 0.5 * du_t));
-    (p_n > 0.0 && lost_j >= 0.0).then_some(Blow {
+    if !(p_n > 0.0 && lost_j >= -LOST_WITHIN * (p_n * u_n).abs()) {
+        return Err(NoBlow::Gains);
+    }
+    Ok(Blow {
         impulse_n_s: impulse,
         delta_v_m_s: [of_first.0, of_second.0],
         delta_turning_rad_s: [of_first.1, of_second.1],
-        lost_j,
+        lost_j: lost_j.max(0.0),
         slides,
     })
 }

@@ -98,6 +98,19 @@ impl Beam {
         (-1..=self.count as isize).map(place).collect()
     }
 
+    /// Distance of a place in plan from its line, m.
+    pub fn off_m(&self, y: &[f64], [x_m, y_m]: [f64; 2]) -> f64 {
+        let line = self.line_m(y);
+        let off = |pair: &[[f64; 2]]| {
+            let [from, way] = [pair[0], [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]]];
+            let to = [x_m - from[0], y_m - from[1]];
+            let share = (to[0] * way[0] + to[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+            let share = share.clamp(0.0, 1.0);
+            long(to[0] - share * way[0], to[1] - share * way[1])
+        };
+        line.windows(2).map(off).fold(f64::INFINITY, f64::min)
+    }
+
     fn has_post(j: usize) -> bool {
         j.is_multiple_of(PER_POST)
     }
@@ -224,16 +237,21 @@ impl Beam {
 
     /// Least way from the vehicle's nodes to the rail, m.
     pub fn gap_m(&self, y: &[f64], shape: &Shape, pose: &Pose) -> f64 {
+        self.nearest(y, shape, pose).map_or(f64::INFINITY, |(gap_m, _)| gap_m)
+    }
+
+    /// The vehicle's node nearest to the rail: its way to it, m, negative behind it, and its place.
+    pub fn nearest(&self, y: &[f64], shape: &Shape, pose: &Pose) -> Option<(f64, V3)> {
         if !self.is_level(shape, pose) {
-            return f64::INFINITY;
+            return None;
         }
-        let gap = |node: &crate::crush::outline::Node| {
+        let near = |node: &crate::crush::outline::Node| {
             let place_m = pose.at_m + pose.axes * node.place_m;
             let at = self.beside(y, &place_m)?;
             let over_m = at.2 - (place_m - self.start_m()).dot(&self.away);
-            Some(over_m / long(at.3, 1.0))
+            Some((over_m / long(at.3, 1.0), place_m))
         };
-        shape.nodes.iter().filter_map(gap).fold(f64::INFINITY, f64::min)
+        shape.nodes.iter().filter_map(near).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Adds the force on a vehicle and on the masses. Returns the force on the vehicle and the sum of the forces' sizes.

@@ -6,6 +6,8 @@ use crate::barrier::{End, Slider};
 const BUILDS_M: f64 = 0.005;
 /// Stiffness at the end of a rigid path, N/m.
 const RIGID_N_PER_M: f64 = 5e7;
+/// Stiffness of the stop behind a cushion, N/m: it stores little, so that it adds no rebound.
+const BEHIND_N_PER_M: f64 = 1e9;
 
 /// A slider ready to run.
 #[derive(Clone, Debug)]
@@ -83,9 +85,11 @@ impl Slide {
     /// Energy absorbed or stored at a travel after a maximum, J.
     pub fn taken_j(&self, way_m: f64, most_m: f64) -> f64 {
         let most_m = most_m.max(way_m);
-        let (top_n, left_n) = (self.load_n(most_m), self.force_n(way_m, most_m));
+        let (top_n, left_n) = (self.load_n(most_m), self.force_n(way_m.max(0.0), most_m));
         let left = if top_n > 0.0 { left_n / top_n } else { 1.0 };
-        self.loaded_j(most_m) * (1.0 - self.returned * (1.0 - left * left))
+        let behind_n = self.behind_n(way_m);
+        let behind_j = 0.5 * behind_n * behind_n / BEHIND_N_PER_M;
+        self.loaded_j(most_m) * (1.0 - self.returned * (1.0 - left * left)) + behind_j
     }
 
     /// Energy on loading, J.
@@ -95,8 +99,16 @@ impl Slide {
         self.energy_j(way_m) + end_n * beyond_m + 0.5 * RIGID_N_PER_M * beyond_m * beyond_m
     }
 
+    /// Force of the stop at which a cushion starts, N: it goes no farther back. A sign has none.
+    fn behind_n(&self, way_m: f64) -> f64 {
+        if self.end == End::Rigid { BEHIND_N_PER_M * way_m.min(0.0) } else { 0.0 }
+    }
+
     /// Retaining force after a maximum travel, N.
     pub fn force_n(&self, way_m: f64, most_m: f64) -> f64 {
+        if way_m < 0.0 {
+            return self.behind_n(way_m);
+        }
         if way_m >= most_m {
             return self.load_n(way_m);
         }

@@ -162,6 +162,35 @@ fn a_cushion_takes_the_energy_on_its_way() {
     }
 }
 
+/// From behind, a cushion stands as a block does: it slides only away from its front.
+#[test]
+fn a_cushion_struck_from_behind_stands() {
+    let car = proof_car(0.8);
+    let corners_m = vec![[5.0, -1.0], [10.0, -1.0], [10.0, 1.0], [5.0, 1.0]];
+    let cushion = |mass_kg| {
+        Barrier::Slider(Slider {
+            corners_m: corners_m.clone(),
+            mass_kg,
+            direction_rad: Some(core::f64::consts::PI),
+            force_n: vec![[0.0, 90e3], [4.0, 90e3]],
+            returned: 0.05,
+            end: End::Rigid,
+            friction: 0.5,
+        })
+    };
+    let start = Start { speed_m_s: 22.0, ..Start::default() };
+    let block = Barrier::Block(Block { corners_m: corners_m.clone(), friction: 0.5 });
+    let at_block = run(&car, start, block, 0.5);
+    for mass_kg in [50.0, 500.0] {
+        let outcome = run(&car, start, cushion(mass_kg), 0.5);
+        let found = [&outcome, &at_block].map(|o| [o.damage[0].dynamic_m, o.contacts[0].impulse_n_s.norm()]);
+        // it passed through; measured 0.06 and 0.4 %
+        assert!((0..2).all(|i| (found[0][i] / found[1][i] - 1.0).abs() < 0.01), "{mass_kg}: {found:?}");
+        assert!(outcome.slides[0].most_m < 0.01, "{:?}", outcome.slides);
+        assert!(outcome.balance.abs() < 1e-4, "{}", outcome.balance);
+    }
+}
+
 /// A sign on a breakaway base: v' = Mv/(M + m), Δv = v − √(v'² − 2E_b/(M + m)). A stiff front, so that the car's own crush
 /// takes little.
 #[test]

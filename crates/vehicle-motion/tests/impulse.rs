@@ -3,10 +3,11 @@
 mod common;
 
 use common::proof_car;
+use vehicle_motion::barrier::{Barrier, Rail, Wall};
 use vehicle_motion::driver::Driver;
 use vehicle_motion::impulse::{Planar, blow};
 use vehicle_motion::run::Start;
-use vehicle_motion::world::{Begin, Entry, Impact, Partner, World};
+use vehicle_motion::world::{Begin, Entry, Impact, Partner, World, WorldError};
 
 const LB: f64 = 0.453_592_37;
 const FT: f64 = 0.3048;
@@ -285,5 +286,124 @@ fn impulse_and_crush_agree() {
         let by_crush = contact.struck[i].unwrap().by_contact_m_s.norm();
         // measured 0.958: the cars move on while they crush; turns agree less
         assert!((quick / by_crush - 1.0).abs() < 0.05, "{quick} {by_crush} {restitution} {aside}");
+    }
+}
+
+/// A full restitution at a wall sends the car back, wherever it is struck: its loss of energy is 0 but for rounding.
+#[test]
+fn a_full_restitution_rebounds() {
+    let wall = Planar {
+        mass_kg: f64::INFINITY,
+        inertia_kg_m2: f64::INFINITY,
+        at_m: [2.5, 0.0],
+        velocity_m_s: [0.0; 2],
+        turning_rad_s: 0.0,
+    };
+    for aside_m in (-90..=90).map(|i| 0.01 * f64::from(i)) {
+        let car = Planar {
+            mass_kg: 1500.0,
+            inertia_kg_m2: 2500.0,
+            at_m: [0.1, 0.0],
+            velocity_m_s: [19.8, 0.3],
+            turning_rad_s: 0.0,
+        };
+        let found = blow([&car, &wall], [2.5, aside_m], 0.0, 1.0, 0.55);
+        assert!(found.is_ok_and(|blow| blow.lost_j >= 0.0 && blow.delta_v_m_s[0][0] < -19.0), "{aside_m}: {found:?}");
+    }
+}
+
+/// A car that leaves one that stands pulls it nowhere: the bodies tell the sense of the normal, not their velocities.
+#[test]
+fn bodies_that_separate_have_no_impulse() {
+    let car = proof_car(0.7);
+    let stands = Start::default();
+    let leaves = Start { x_m: 7.0, speed_m_s: 20.0, ..Start::default() };
+    let cars = [stands, leaves].map(|start| Entry::new(car.clone(), Driver::coasting(), Begin::At(start)));
+    for normal_rad in [0.0, core::f64::consts::PI] {
+        let timed = Impact { time_s: Some(0.1), at_m: Some([4.0, 0.0]), normal_rad, ..impact(0.1) };
+        let world = World { cars: cars.to_vec(), impulses: vec![timed], ..World::default() };
+        let outcome = world.run(0.5).unwrap();
+        let speed = outcome.rides[0].last().velocity_m_s.norm();
+        // it was 10.7 m/s
+        assert!(speed < 0.01, "{normal_rad}: {speed}");
+    }
+}
+
+/// Without a place, a rail is struck where the car touches it, as a wall along the same line is.
+#[test]
+fn a_rail_is_struck_where_the_car_touches_it() {
+    let start = Start { yaw_rad: 20f64.to_radians(), speed_m_s: 20.0, ..Start::default() };
+    let half = core::f64::consts::FRAC_PI_2;
+    let rail = Barrier::Rail(Rail::w_beam([[-10.0, 3.0], [40.0, 3.0]]));
+    let wall = Barrier::Wall(Wall { point_m: [0.0, 3.0], normal_rad: -half, friction: 0.55 });
+    let run = |barrier| {
+        let struck = Impact { between: (0, Partner::Barrier(0)), normal_rad: half, ..impact(0.01) };
+        let cars = vec![Entry::new(proof_car(0.7), Driver::coasting(), Begin::At(start))];
+        let world = World { cars, barriers: vec![barrier], impulses: vec![struck], ..World::default() };
+        let contacts = world.run(0.5).unwrap().contacts;
+        let struck = contacts[0].struck[0].unwrap();
+        (contacts[0].impulse_n_s, struck.yaw_rates_rad_s[1])
+    };
+    let ((at_rail, turn), (at_wall, expected)) = (run(rail), run(wall));
+    // the same but for rounding; it was struck at the origin
+    assert!((at_rail - at_wall).norm() < 1e-9 * at_wall.norm(), "{at_rail:?} {at_wall:?}");
+    assert!((turn / expected - 1.0).abs() < 1e-9 && expected < -0.5, "{turn} {expected}");
+}
+
+/// An impact that does not act says why, and changes nothing.
+#[test]
+fn an_impact_that_does_not_act_says_why() {
+    let car = proof_car(0.7);
+    let ahead = |x_m, speed_m_s| Start { x_m, speed_m_s, ..Start::default() };
+    let run = |starts: [Start; 2], impact: Impact| {
+        let cars = starts.map(|start| Entry::new(car.clone(), Driver::coasting(), Begin::At(start)));
+        World { cars: cars.to_vec(), impulses: vec![impact], ..World::default() }.run(0.5)
+    };
+    let (meet, far) = ([ahead(0.0, 20.0), ahead(7.0, 0.0)], [ahead(0.0, 20.0), ahead(90.0, 0.0)]);
+    let straight = Impact { normal_rad: 0.0, ..impact(0.1) };
+    let at_once = Impact { time_s: Some(0.2), at_m: Some([50.0, 0.0]), ..straight };
+    let aside = Impact { normal_rad: core::f64::consts::FRAC_PI_2, ..straight };
+    let cases = [
+        (meet, straight, None),
+        (meet, aside, Some("do not close along its normal")),
+        (meet, Impact { at_m: Some([5.0, 9.0]), ..straight }, Some("8.09 m away from the outline")),
+        (far, straight, Some("outlines do not touch")),
+        (far, at_once, Some("m away from the outline")),
+        (far, Impact { at_m: None, ..at_once }, Some("m away from the outline")),
+    ];
+    for (starts, impact, why) in cases {
+        let outcome = run(starts, impact).unwrap();
+        let found: Vec<String> = outcome.missed.iter().map(|missed| missed.why.to_string()).collect();
+        assert_eq!(found.len(), usize::from(why.is_some()), "{found:?}");
+        assert!(why.is_none_or(|why| found[0].contains(why)), "{found:?}, expected {why:?}");
+        let stands = outcome.rides[1].last().velocity_m_s.norm() < 0.01;
+        assert_eq!((stands, outcome.contacts.is_empty()), (why.is_some(), why.is_some()), "{found:?}");
+    }
+    let late = run(meet, Impact { time_s: Some(0.5), ..straight });
+    assert_eq!(late.unwrap_err(), WorldError::Late { impact: 0, time_s: 0.5, end_s: 0.5 });
+}
+
+/// What an impact without duration did counts from before it: the closing speed, Δv and EES of a central impact,
+/// ½(1 − k²) m₁m₂/(m₁ + m₂) u², of which each takes half.
+#[test]
+fn an_impact_at_once_counts_from_before_it() {
+    let ahead = |x_m, speed_m_s| Start { x_m, speed_m_s, ..Start::default() };
+    let car = proof_car(0.0);
+    let cars = [ahead(0.0, 20.0), ahead(5.5, 0.0)];
+    let cars = cars.map(|start| Entry::new(car.clone(), Driver::coasting(), Begin::At(start)));
+    for time_s in [None, Some(0.0)] {
+        let at_m = Some([2.6, 0.0]);
+        let own = Impact { time_s, at_m, normal_rad: 0.0, restitution: 0.3, ..impact(0.0) };
+        let world = World { cars: cars.to_vec(), impulses: vec![own], ..World::default() };
+        let outcome = world.run(0.5).unwrap();
+        let [one, two] = outcome.contacts[0].struck.map(Option::unwrap);
+        let closing = (one.enters_m_s - two.enters_m_s).norm();
+        // nothing slows a car on ice
+        assert!((closing - 20.0).abs() < 0.01, "{closing}");
+        let (expected, ees) = (0.65 * closing, (0.5 * (1.0 - 0.09) * 0.5f64).sqrt() * closing);
+        for own in [one, two] {
+            assert!((own.delta_v_m_s.norm() - expected).abs() < 1e-6, "{own:?} {expected}");
+            assert!((own.ees_m_s - ees).abs() < 1e-6 && own.peak_m_s2.is_infinite(), "{own:?}");
+        }
     }
 }

@@ -53,10 +53,9 @@ fn met(drives: &Drives, car: usize, barrier: usize) -> Option<Met> {
     let (first, last) = (contacts().next()?, contacts().next_back()?);
     let stations = drives.outcome.rides[car].stations();
     let at = |time_s: f64| stations.partition_point(|station| station.time_s < time_s - 1e-12).min(stations.len() - 1);
-    let (before, after) = (&stations[at(first.from_s)], exit(&stations[at(last.until_s)..]));
+    let (before, after) = (first.struck[0]?.enters_m_s, exit(&stations[at(last.until_s)..]));
     let away = away(&drives.world.barriers[barrier]);
-    let angle = |station: &Station, sign: f64| {
-        let velocity = station.velocity_m_s;
+    let angle = |velocity: V3, sign: f64| {
         let across = sign * velocity.dot(&away?);
         let along = (trig::hypot(velocity.x, velocity.y).powi(2) - across * across).max(0.0).sqrt();
         Some(trig::atan2(across, along))
@@ -77,10 +76,10 @@ fn met(drives: &Drives, car: usize, barrier: usize) -> Option<Met> {
         kind,
         from_s: first.from_s,
         until_s: last.until_s,
-        impact_speed_m_s: before.velocity_m_s.norm(),
+        impact_speed_m_s: before.norm(),
         impact_angle_rad: angle(before, -1.0),
         exit_speed_m_s: after.velocity_m_s.norm(),
-        exit_angle_rad: angle(after, 1.0),
+        exit_angle_rad: angle(after.velocity_m_s, 1.0),
         deflection_m: rail.map(|rail| rail.deflection_m).or(stroke_m),
         tension_n: rail.map(|rail| rail.tension_n),
         released_posts: rail.map(|rail| rail.released),

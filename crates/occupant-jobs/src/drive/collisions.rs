@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use occupant_scenario::Drives;
 use serde::Serialize;
+use vehicle_motion::GRAVITY_M_S2;
 use vehicle_motion::body::Side;
 use vehicle_motion::world::{Contact, Damage, Partner, Struck};
 
@@ -33,8 +34,15 @@ pub struct Collision {
     pub clock: u8,
     /// Energy-equivalent speed, m/s.
     pub ees_m_s: f64,
-    /// Largest acceleration, m/s².
+    /// Largest acceleration, m/s²; infinite in an impact without duration.
     pub peak_m_s2: f64,
+}
+
+impl Collision {
+    /// Whether it is an impact without duration.
+    pub fn is_at_once(&self) -> bool {
+        self.peak_m_s2.is_infinite()
+    }
 }
 
 /// Least velocity change of a collision, by itself or with the tyres, m/s; cars that lean on each other stay below.
@@ -48,18 +56,14 @@ pub(super) fn of(drives: &Drives, number: usize) -> Vec<Collision> {
 
 fn one(drives: &Drives, contact: &Contact, number: usize) -> Option<Collision> {
     let (struck, partner) = side_of(contact, number)?;
-    let speed = |car: usize| {
-        let stations = drives.outcome.rides[car].stations();
-        let at = stations.partition_point(|station| station.time_s < contact.from_s - 1e-12);
-        stations[at.min(stations.len() - 1)].velocity_m_s
-    };
     let (with, closing) = match partner {
-        Partner::Car(other) => (drives.vehicles[other].name.clone(), speed(number) - speed(other)),
-        Partner::Barrier(barrier) => (drives.barriers[barrier].0.clone(), speed(number)),
+        Partner::Car(other) => {
+            let (theirs, _) = side_of(contact, other)?;
+            (drives.vehicles[other].name.clone(), struck.enters_m_s - theirs.enters_m_s)
+        }
+        Partner::Barrier(barrier) => (drives.barriers[barrier].0.clone(), struck.enters_m_s),
     };
-    // an impulse at once leaves no station within it
-    let is_at_once = contact.until_s <= contact.from_s;
-    let delta_v = if is_at_once { struck.by_contact_m_s } else { struck.delta_v_m_s };
+    let delta_v = struck.delta_v_m_s;
     let turn = (struck.pdof_rad + PI).rem_euclid(2.0 * PI) - PI;
     Some(Collision {
         with,
@@ -107,7 +111,7 @@ pub(super) fn text(collisions: &[Collision], units: Units) -> String {
             format!("{:.0}", own.pdof_rad.to_degrees()),
             own.clock.to_string(),
             speed(own.ees_m_s),
-            format!("{:.1}", own.peak_m_s2 / vehicle_motion::GRAVITY_M_S2),
+            if own.is_at_once() { NONE.to_owned() } else { format!("{:.1}", own.peak_m_s2 / GRAVITY_M_S2) },
         ]);
     }
     table.text()

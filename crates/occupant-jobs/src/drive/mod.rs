@@ -41,7 +41,7 @@ pub struct Driven {
     pub collisions: Vec<Collision>,
     /// Barrier contacts.
     pub barriers: Vec<Met>,
-    /// Risk measures for occupants.
+    /// Risk measures for occupants; none after an impact without duration, which has no accelerations.
     pub risk: Vec<Figure>,
 }
 
@@ -73,7 +73,11 @@ impl Driven {
             events: events::of(ride, &drives.world.ground, &collisions),
             marks: marks(ride, &drives.world.ground),
             motion: Figurable::of(ride, drives),
-            risk: risk(drives, number, collisions.first().map_or(0.0, |first| first.from_s)),
+            risk: if collisions.iter().any(Collision::is_at_once) {
+                Vec::new()
+            } else {
+                risk(drives, number, collisions.first().map_or(0.0, |first| first.from_s))
+            },
             collisions,
             barriers: barriers::of(drives, number),
         }

@@ -119,6 +119,12 @@ fn marks(driven: &Driven, units: Units) -> String {
 
 /// Risk measures; times are relative to the start of the drive.
 fn risk(driven: &Driven, units: Units) -> String {
+    if let Some(own) = driven.collisions.iter().find(|own| own.is_at_once()) {
+        return format!(
+            "no measures of occupant risk: the impact with {} has no duration, so that no acceleration is defined\n",
+            own.with
+        );
+    }
     let us = units.symbol("m") != "m";
     let mut table = Table::new(&[
         (Align::Left, &[if driven.collisions.is_empty() { "risk by the vehicle's motion" } else { RISK_OF_COLLISION }]),

@@ -145,6 +145,41 @@ fn two_cars_meet() {
     assert!((one + two - 33.0).abs() < 0.1, "{one} {two}");
 }
 
+/// An impact that does not act is told with its place in the text, and one after the end is refused.
+#[test]
+fn an_impact_that_does_not_act_is_told() {
+    let with = |impact: &str| {
+        let impact = format!("[[drive.impacts]]\nbetween = [\"car\", \"wall\"]\n{impact}\n[drive.barriers.wall]");
+        told(&replaced(&wall(), "[drive.barriers.wall]", &impact))
+    };
+    assert!(!with("normal = 0").contains("drive.impacts"), "{}", with("normal = 0"));
+    for (impact, expected) in [
+        ("normal = 90", "the impact between car and wall does not act: at 0.0"),
+        (
+            "normal = 0\nat = [50, 0]\ntime = 0.01",
+            "m away from the outline of one of them; they pass through each other",
+        ),
+        ("normal = 0\ntime = 2", "2 s, and the drive ends at 0.3 s"),
+    ] {
+        let told = with(impact);
+        assert!(told.contains(expected) && told.contains("drive.impacts[0]"), "{told}");
+    }
+}
+
+/// A vehicle that leaves a grid of heights is told; one that stays on it is not.
+#[test]
+fn who_leaves_a_grid_is_told() {
+    let with = |lengths: &str| {
+        let grid = format!(
+            "[drive.ground]\ngrid = {{ from = [-10, -10], step = [{lengths}], height = [[0, 0], [0, 0]] }}\n[drive.barriers.wall]"
+        );
+        told(&replaced(&replaced(&wall(), "[drive.barriers.wall]", &grid), "at = [\"2.5 m\", 0]", "at = [40, 0]"))
+    };
+    let leaves = with("12, 20");
+    assert!(leaves.contains("a wheel of car leaves the surveyed ground at 0.0") && leaves.contains("x 2."), "{leaves}");
+    assert!(!with("60, 20").contains("surveyed"), "{}", with("60, 20"));
+}
+
 /// Nothing moves a door in: who sits behind one that is pressed in is refused, until a panel is given.
 #[test]
 fn who_sits_within_the_crush_is_refused() {

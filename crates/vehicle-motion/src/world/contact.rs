@@ -52,21 +52,30 @@ pub struct Struck {
     pub clock: u8,
     /// Energy-equivalent speed √(2E/M), m/s.
     pub ees_m_s: f64,
+    /// Velocity before the contact, vehicle-space, m/s.
+    pub enters_m_s: V3,
     /// Velocity at the end of the contact, vehicle-space, m/s.
     pub leaves_m_s: V3,
     /// Yaw rate at first contact and at the end, rad/s.
     pub yaw_rates_rad_s: [f64; 2],
-    /// Largest acceleration within it, m/s².
+    /// Largest acceleration within it, m/s²; infinite if it has no duration.
     pub peak_m_s2: f64,
 }
 
 impl Struck {
-    /// Of a vehicle's stations, for a contact's time and impulse.
-    pub(crate) fn of(stations: &[Station], [from_s, until_s]: [f64; 2], impulse_n_s: V3, mass_kg: f64) -> Option<Self> {
+    /// Of a vehicle's stations, for a contact's time and impulse; `before` is the station before an impact without
+    /// duration, as the first of its time is that after it.
+    pub(crate) fn of(
+        stations: &[Station],
+        before: Option<&Station>,
+        [from_s, until_s]: [f64; 2],
+        impulse_n_s: V3,
+        mass_kg: f64,
+    ) -> Option<Self> {
         let first = stations.partition_point(|station| station.time_s < from_s - 1e-12);
         let end = stations.partition_point(|station| station.time_s <= until_s + 1e-12).max(first + 1);
         let within = stations.get(first..end.min(stations.len()))?;
-        let (start, last) = (within.first()?, within.last()?);
+        let (start, last) = (before.or(within.first())?, within.last()?);
         let change = |station: &&Station| (station.velocity_m_s - start.velocity_m_s).norm();
         let most = within.iter().max_by(|a, b| change(a).total_cmp(&change(b)))?;
         let to_car = start.attitude.inverse();
@@ -74,6 +83,7 @@ impl Struck {
         let pdof_rad = libm::atan2(-by_contact.y, -by_contact.x).rem_euclid(core::f64::consts::TAU);
         let work = |station: &Station| station.state.work().crush_j;
         let absorbed_j = (work(last) - work(start)).max(0.0);
+        let peak_m_s2 = within.iter().map(|station| station.acceleration_m_s2.norm()).fold(0.0, f64::max);
         let hour = (pdof_rad / (core::f64::consts::PI / 6.0)).round() as u8 % 12;
         Some(Struck {
             delta_v_m_s: to_car * (most.velocity_m_s - start.velocity_m_s),
@@ -81,9 +91,10 @@ impl Struck {
             pdof_rad,
             clock: if hour == 0 { 12 } else { hour },
             ees_m_s: (2.0 * absorbed_j / mass_kg).sqrt(),
+            enters_m_s: start.velocity_m_s,
             leaves_m_s: last.velocity_m_s,
             yaw_rates_rad_s: [start.rotation_rad_s.z, last.rotation_rad_s.z],
-            peak_m_s2: within.iter().map(|station| station.acceleration_m_s2.norm()).fold(0.0, f64::max),
+            peak_m_s2: if before.is_some() { f64::INFINITY } else { peak_m_s2 },
         })
     }
 }

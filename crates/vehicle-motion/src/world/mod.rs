@@ -108,6 +108,46 @@ pub struct Impact {
     pub duration_s: f64,
 }
 
+/// An impact that did not act; its pair passes through each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Missed {
+    /// Number of the impact.
+    pub impact: usize,
+    /// Why.
+    pub why: Miss,
+}
+
+/// Why an impact did not act.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Miss {
+    /// The outlines do not touch.
+    Untouched,
+    /// At this time, s, the two do not close along its normal.
+    Separate(f64),
+    /// At this time, s, its impulse would add energy.
+    Gains(f64),
+    /// Its place lies outside of the outline of one of the two.
+    Away {
+        /// When, s.
+        time_s: f64,
+        /// How far, m.
+        by_m: f64,
+    },
+}
+
+impl core::fmt::Display for Miss {
+    fn fmt(&self, f: &mut core::fmt::Formatter) -> core::fmt::Result {
+        match self {
+            Miss::Untouched => write!(f, "their outlines do not touch"),
+            Miss::Separate(time_s) => write!(f, "at {time_s:.3} s they do not close along its normal"),
+            Miss::Gains(time_s) => write!(f, "at {time_s:.3} s its impulse would add energy"),
+            Miss::Away { time_s, by_m } => {
+                write!(f, "at {time_s:.3} s its place is {by_m:.2} m away from the outline of one of them")
+            }
+        }
+    }
+}
+
 /// Results of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -115,6 +155,8 @@ pub struct Outcome {
     pub rides: Vec<Ride>,
     /// Contacts in the order of their first contacts.
     pub contacts: Vec<Contact>,
+    /// Impacts that did not act, by number.
+    pub missed: Vec<Missed>,
     /// Damage of each vehicle.
     pub damage: Vec<Damage>,
     /// Travel of each barrier; 0 for fixed ones.
@@ -180,6 +222,16 @@ pub enum WorldError {
     /// An invalid start or end time.
     #[error("the start of the drive must be finite numbers, and its end a time above 0")]
     Start,
+    /// An impact that comes too late.
+    #[error("impact {} at {time_s} s comes after the end of the drive at {end_s} s", impact + 1)]
+    Late {
+        /// Its number.
+        impact: usize,
+        /// Its time, s.
+        time_s: f64,
+        /// The end, s.
+        end_s: f64,
+    },
     /// Two vehicles that start within each other.
     #[error("vehicles {} and {} overlap by {depth_m:.3} m at the start", between.0 + 1, between.1 + 1)]
     Overlap {

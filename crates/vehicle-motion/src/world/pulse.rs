@@ -2,11 +2,14 @@
 
 use crate::V3;
 use crate::crush::touch::{Pose, Push};
-use crate::impulse::{Planar, blow, cross};
+use crate::impulse::{NoBlow, Planar, blow, cross};
 use crate::integrate::Stack;
 use crate::state::State;
 use crate::world::setup::Setup;
-use crate::world::{Contact, Impact, Partner};
+use crate::world::{Contact, Impact, Miss, Partner};
+
+/// How far outside of an outline the place of an impact may lie: outlines, times and places are estimates, m.
+const AWAY_M: f64 = 1.0;
 
 impl Impact {
     /// The pair, the vehicle of lower number first.
@@ -31,14 +34,21 @@ pub(crate) struct Pulse {
 }
 
 impl Pulse {
-    /// Impulse of an impact that begins now; none if the bodies separate.
-    pub fn of(setup: &Setup, impact: &Impact, time_s: f64, stack: &Stack, poses: &[Pose]) -> Self {
+    /// Impulse of an impact that begins now.
+    ///
+    /// # Errors
+    /// Why it does not act.
+    pub fn of(setup: &Setup, impact: &Impact, time_s: f64, stack: &Stack, poses: &[Pose]) -> Result<Self, Miss> {
         let (car, partner) = impact.pair();
         let body = match partner {
             Partner::Car(other) => other,
             Partner::Barrier(barrier) => setup.vehicles.len() + barrier,
         };
-        let place_m = impact.at_m.unwrap_or_else(|| setup.first_touch_m(car, body, poses));
+        let place_m = impact.at_m.or_else(|| setup.first_touch_m(car, body, stack, poses)).ok_or(Miss::Untouched)?;
+        let by_m = [car, body].map(|own| setup.outside_m(own, place_m, stack, poses)).into_iter().fold(0.0, f64::max);
+        if by_m > AWAY_M {
+            return Err(Miss::Away { time_s, by_m });
+        }
         let planar = |body: usize| match setup.vehicles.get(body) {
             Some(vehicle) => {
                 let state = &stack.cars[body];
@@ -61,16 +71,20 @@ impl Pulse {
         };
         let both = [planar(car), planar(body)];
         let found = blow([&both[0], &both[1]], place_m, impact.normal_rad, impact.restitution, impact.friction);
-        let impulse = found.map_or([0.0; 2], |blow| blow.impulse_n_s);
+        let impulse = found.map_err(|why| match why {
+            NoBlow::Separate => Miss::Separate(time_s),
+            NoBlow::Gains => Miss::Gains(time_s),
+        });
+        let impulse = impulse?.impulse_n_s;
         let turns = [cross(both[0].arm_m(place_m), impulse), -cross(both[1].arm_m(place_m), impulse)];
-        Pulse {
+        Ok(Pulse {
             bodies: [car, body],
             partner,
             start_s: time_s,
             duration_s: impact.duration_s,
             impulse: V3::new(impulse[0], impulse[1], 0.0),
             turns,
-        }
+        })
     }
 
     /// The vehicles that it strikes.

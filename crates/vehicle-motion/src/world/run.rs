@@ -11,7 +11,7 @@ use crate::world::contact::{Contact, ENDS_AFTER_S, FADES, LEAST_N};
 use crate::world::evaluate::{Findings, NEAR_M};
 use crate::world::pulse::Pulse;
 use crate::world::setup::{Memories, Pair, Setup};
-use crate::world::{Bend, Outcome, Partner, World, WorldError, Wrench};
+use crate::world::{Bend, Miss, Missed, Outcome, Partner, World, WorldError, Wrench};
 
 /// Shortest step, s; smaller ones fail.
 const SHORTEST_S: f64 = 1e-9;
@@ -45,6 +45,9 @@ pub(crate) struct Runner<'a> {
     pub contacts: Vec<Contact>,
     pulses: Vec<Pulse>,
     fired: Vec<bool>,
+    pub missed: Vec<Missed>,
+    /// Of impacts without duration: contact, vehicle, and its motion before.
+    pub before: Vec<(usize, usize, Station)>,
     pub rides: Vec<Vec<Station>>,
     /// Lines of each rail.
     pub bends: Vec<Vec<Bend>>,
@@ -65,6 +68,12 @@ impl World {
         let cars = setup.begin();
         if !(end_s > 0.0 && end_s.is_finite() && cars.iter().all(|car| car.0.iter().all(|x| x.is_finite()))) {
             return Err(WorldError::Start);
+        }
+        let times_s = self.impulses.iter().map(|impact| impact.time_s).enumerate();
+        for (impact, time_s) in times_s.filter_map(|(i, time_s)| Some((i, time_s?))) {
+            if time_s >= end_s {
+                return Err(WorldError::Late { impact, time_s, end_s });
+            }
         }
         Runner::new(&setup, cars, end_s).run()
     }
@@ -101,6 +110,8 @@ impl<'a> Runner<'a> {
             contacts: Vec::new(),
             pulses: Vec::new(),
             fired: vec![false; setup.world.impulses.len()],
+            missed: Vec::new(),
+            before: Vec::new(),
             rides: vec![Vec::new(); stack.cars.len()],
             bends: vec![Vec::new(); setup.rails.len()],
             stack,
@@ -165,6 +176,9 @@ impl<'a> Runner<'a> {
             self.greatest_j = self.greatest_j.max(self.kinetic_j());
             self.note();
         }
+        let never = self.fired.iter().enumerate().filter(|(_, fired)| !**fired);
+        self.missed.extend(never.map(|(impact, _)| Missed { impact, why: Miss::Untouched }));
+        self.missed.sort_by_key(|missed| missed.impact);
         let balance = (self.energy_j() - before_j) / self.greatest_j.max(1e-9);
         Ok(self.outcome(balance))
     }
@@ -327,8 +341,14 @@ impl<'a> Runner<'a> {
                 continue;
             }
             self.fired[i] = true;
+            let pulse = match Pulse::of(self.setup, impact, self.time_s, &self.stack, &self.memories.poses) {
+                Ok(pulse) => pulse,
+                Err(why) => {
+                    self.missed.push(Missed { impact: i, why });
+                    continue;
+                }
+            };
             jumps = true;
-            let pulse = Pulse::of(self.setup, impact, self.time_s, &self.stack, &self.memories.poses);
             for car in pulse.cars() {
                 hit(&mut self.memories.vehicles[car], self.time_s);
             }
@@ -342,6 +362,9 @@ impl<'a> Runner<'a> {
                 contact.until_s = end_s;
                 self.pulses.push(pulse);
             } else {
+                let number = self.contacts.len();
+                let before = pulse.cars().map(|car| (number, car, self.station(car)));
+                self.before.extend(before.collect::<Vec<_>>());
                 pulse.strike(self.setup, &mut self.stack);
             }
             self.contacts.push(contact);

@@ -6,6 +6,7 @@ use crate::crush::law::{Law, Series};
 use crate::crush::outline::{Node, Outline, of_body};
 use crate::crush::touch::{NO_FACE, Pass, Pose, Shape};
 use crate::hull::{Hull, HullMemory, Obstacle};
+use crate::integrate::Stack;
 use crate::rail::{Beam, BeamMemory};
 use crate::slider::Slide;
 use crate::state::State;
@@ -288,13 +289,33 @@ impl<'a> Setup<'a> {
         rows.iter().flat_map(|row| outline.nodes(NARROW_M, -(ground_m + row.height_m), row.share)).collect()
     }
 
-    /// Where two bodies come nearest: the node of least gap, X and Y, m.
-    pub fn first_touch_m(&self, car: usize, body: usize, poses: &[Pose]) -> [f64; 2] {
-        let passes = self.pairs.iter().filter(|pair| pair.car == car && pair.body == body);
-        let nearest = passes
-            .flat_map(|pair| &self.passes[pair.passes.clone()])
-            .filter_map(|pass| pass.nearest(&self.shapes, poses));
-        nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or([0.0; 2], |(_, place)| [place.x, place.y])
+    /// Where two bodies come nearest: the node of least gap, X and Y, m; none if they pass over each other, or the vehicle
+    /// is beyond the ends of a rail.
+    pub fn first_touch_m(&self, car: usize, body: usize, stack: &Stack, poses: &[Pose]) -> Option<[f64; 2]> {
+        let pair = self.pairs.iter().find(|pair| pair.car == car && pair.body == body)?;
+        let (_, place) = match pair.rail {
+            Some(number) => {
+                let Rails { beam, at, .. } = &self.rails[number];
+                beam.nearest(&stack.more[at.clone()], &self.shapes[car], &poses[car])?
+            }
+            None => {
+                let passes = &self.passes[pair.passes.clone()];
+                let nearest = passes.iter().filter_map(|pass| pass.nearest(&self.shapes, poses));
+                nearest.min_by(|a, b| a.0.total_cmp(&b.0))?
+            }
+        };
+        Some([place.x, place.y])
+    }
+
+    /// How far outside of a body's outline in plan a place lies, at least, m; 0 within it.
+    pub fn outside_m(&self, body: usize, [x, y]: [f64; 2], stack: &Stack, poses: &[Pose]) -> f64 {
+        let (pose, first) = (&poses[body], self.vehicles.len());
+        let place_m = V3::new(x, y, pose.at_m.z);
+        let rail = self.rails.iter().find(|rail| first + rail.barrier == body);
+        match rail {
+            Some(Rails { beam, at, .. }) => beam.off_m(&stack.more[at.clone()], [x, y]),
+            None => self.shapes[body].outline.gap_m(&(pose.axes.transpose() * (place_m - pose.at_m))).max(0.0),
+        }
     }
 
     /// Deepest crush of a vehicle so far, m.

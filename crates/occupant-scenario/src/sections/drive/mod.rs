@@ -243,6 +243,8 @@ pub(crate) fn caveats(document: &Document, solved: &Solved) -> Diagnostics {
     let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
     solved.warn_of_crush(b);
     solved.warn_of_rails(b);
+    solved.warn_of_impacts(b);
+    solved.warn_of_ground(b);
     std::mem::take(&mut b.problems)
 }
 
@@ -283,6 +285,10 @@ fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
             let name = section.barriers.get_index(*barrier).map_or("", |(name, _)| name.as_str());
             let found = format!("it is {depth_m:.3} m within {name}");
             b.error(&with_key(&at(*car), "start"), found, "a start before the barrier");
+        }
+        WorldError::Late { impact, time_s, end_s } => {
+            let found = format!("{time_s} s, and the drive ends at {end_s} s");
+            b.error(&format!("drive.impacts[{impact}].time"), found, "a time before the end of the drive");
         }
         WorldError::Barrier { barrier, what } => {
             let name = section.barriers.get_index(*barrier).map_or("", |(name, _)| name.as_str());

@@ -5,7 +5,7 @@ use vehicle_motion::V3;
 use vehicle_motion::barrier::Barrier;
 use vehicle_motion::body::Side;
 use vehicle_motion::run::Station;
-use vehicle_motion::world::Partner;
+use vehicle_motion::world::{Miss, Partner};
 
 use super::super::Scenario;
 use super::super::builder::Builder;
@@ -182,6 +182,63 @@ impl Solved {
                 format!("{} is beyond an end of this rail at {:.3} s, while it touches it", own.name, first.time_s);
             let expected = "a longer line: an end is a point that does not move, without a terminal";
             b.report(Problem::warning(with_key("drive.barriers", &self.barriers[number].0), found, expected));
+        }
+    }
+
+    /// Warns of impacts that did not act, and of people in one without duration.
+    pub(super) fn warn_of_impacts(&self, b: &mut Builder) {
+        for (i, impact) in self.world.impulses.iter().enumerate().filter(|(_, impact)| impact.duration_s == 0.0) {
+            let (first, second) = impact.between;
+            let cars = (0..self.vehicles.len()).filter(|car| *car == first || Partner::Car(*car) == second);
+            let mut carry = cars.filter(|car| self.people.get(*car).is_some_and(Option::is_some));
+            let acts = self.outcome.missed.iter().all(|missed| missed.impact != i);
+            if let Some(car) = carry.next().filter(|_| acts) {
+                let found = format!(
+                    "people in {}, whose speed jumps: the acceleration that loads them is not defined",
+                    self.vehicles[car].name
+                );
+                let expected = "a duration above 0, such as \"0.1 s\"";
+                b.report(Problem::warning(format!("drive.impacts[{i}].duration"), found, expected));
+            }
+        }
+        for missed in &self.outcome.missed {
+            let (car, partner) = self.world.impulses[missed.impact].between;
+            let partner = match partner {
+                Partner::Car(other) => &self.vehicles[other].name,
+                Partner::Barrier(number) => &self.barriers[number].0,
+            };
+            let found = format!(
+                "the impact between {} and {partner} does not act: {}; they pass through each other",
+                self.vehicles[car].name, missed.why
+            );
+            let expected = match missed.why {
+                Miss::Untouched => "paths that meet, or a `time`",
+                Miss::Separate(_) => "a `normal` along which they close, or no impact",
+                Miss::Gains(_) => "a smaller `restitution` or `friction`",
+                Miss::Away { .. } => "`at` and `time` where both meet",
+            };
+            b.report(Problem::warning(format!("drive.impacts[{}]", missed.impact), found, expected));
+        }
+    }
+
+    /// Warns of vehicles that leave a grid of heights. The outer slopes of a cross-section are meant to continue.
+    pub(super) fn warn_of_ground(&self, b: &mut Builder) {
+        let at = "drive.ground.grid";
+        if !b.document.has(at) {
+            return;
+        }
+        for (own, ride) in self.vehicles.iter().zip(&self.outcome.rides) {
+            let beyond = |station: &Station| {
+                let mut rolls = station.wheels.iter().filter(|wheel| wheel.load_n > 0.0).map(|wheel| wheel.contact_m);
+                rolls.find(|at| !self.world.ground.is_given(at.x, at.y)).map(|at| (station.time_s, at))
+            };
+            let Some((time_s, place)) = ride.stations().iter().find_map(beyond) else { continue };
+            let found = format!(
+                "a wheel of {} leaves the surveyed ground at {time_s:.2} s, x {:.2} m, y {:.2} m",
+                own.name, place.x, place.y
+            );
+            let expected = "a larger grid: beyond its rim the ground is level outwards";
+            b.report(Problem::warning(at, found, expected));
         }
     }
 
