@@ -16,6 +16,10 @@ use nalgebra::{Matrix3, Matrix6, Quaternion, Vector6};
 const STANDING_RAD_S: f64 = 0.5;
 /// Time constant with which slips decay off the ground, s.
 const FADING_S: f64 = 0.05;
+/// Slip at which a drive that spares the grip begins to let go, and the sliding speed to add near rest, m/s; at twice as
+/// much it has let go. Tyres grip best at a slip of 0.1 to 0.2.
+const SPARED_SLIP: f64 = 0.1;
+const SPARED_M_S: f64 = 0.3;
 
 /// Controls at a time, from driver and damage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,6 +30,8 @@ pub struct Controls {
     pub brake_n_m: f64,
     /// Drive torque, all wheels, N·m.
     pub drive_n_m: f64,
+    /// Whether the drive lets go of wheels that are off the ground or spin, as a driver or traction control does.
+    pub spares_grip: bool,
 }
 
 /// A wheel at one evaluation.
@@ -240,6 +246,7 @@ impl Chassis {
                 slips: state.slips(i),
                 brake_n_m: controls.brake_n_m * self.brake_share[i],
                 drive_n_m: controls.drive_n_m * self.drive_share[i],
+                spares_grip: controls.spares_grip,
                 spin_kg_m2: axle.spin_kg_m2,
                 is_held: held[i],
             };
@@ -334,13 +341,14 @@ impl Chassis {
             let brake = of.brake_n_m * standing;
             let braked = if of.is_held { 0.0 } else { brake * relative };
             work.braking_j += braked;
-            let driven = if of.is_held { 0.0 } else { of.drive_n_m * relative };
+            let drive_n_m = if of.spares_grip { 0.0 } else { of.drive_n_m };
+            let driven = if of.is_held { 0.0 } else { drive_n_m * relative };
             work.driving_j += driven;
             return Met {
                 force: V3::zeros(),
                 couple: V3::zeros(),
                 arm_m: place,
-                spin_rate: (of.drive_n_m - brake) / spin_inertia,
+                spin_rate: (drive_n_m - brake) / spin_inertia,
                 slip_rates: of.slips.map(|slip| -slip / FADING_S),
                 report: WheelReport {
                     brake_n_m: of.brake_n_m,
@@ -382,17 +390,20 @@ impl Chassis {
         // more than twice what the ground can turn acts like a lock; the bound keeps the step long
         let brake_n_m = of.brake_n_m.min(2.0 * most * low_m + 50.0);
         let brake = brake_n_m * standing;
+        let spared_m_s = SPARED_M_S + SPARED_SLIP * (slide[0] + rolls).abs();
+        let kept = if of.spares_grip { (2.0 + slide[0] / spared_m_s).clamp(0.0, 1.0) } else { 1.0 };
+        let drive_n_m = of.drive_n_m * kept;
         if !of.is_held {
             work.braking_j += brake * relative;
             work.rolling_j += rolling * relative;
-            work.driving_j += of.drive_n_m * relative;
+            work.driving_j += drive_n_m * relative;
         }
         let spun_n_m = shear[0] * lever;
         Met {
             force: ahead * shear[0] + right * shear[1] + normal * load,
             couple: to_body * at.couple_m * (elastic / at.share.max(1e-9)),
             arm_m,
-            spin_rate: (of.drive_n_m - brake - spun_n_m - rolling) / spin_inertia,
+            spin_rate: (drive_n_m - brake - spun_n_m - rolling) / spin_inertia,
             slip_rates: tyre.slip_rates(of.slips, slide, rolls),
             report: WheelReport {
                 load_n: load,
@@ -486,6 +497,7 @@ struct Carrier {
     slips: [f64; 2],
     brake_n_m: f64,
     drive_n_m: f64,
+    spares_grip: bool,
     spin_kg_m2: f64,
     is_held: bool,
 }

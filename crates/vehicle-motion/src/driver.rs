@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use crate::V3;
+use crate::{GRAVITY_M_S2, V3};
 use libm::{atan, atan2, sin, tan};
 
 /// A number over time, linear between points and constant outside.
@@ -148,11 +148,15 @@ impl Driver {
         }
     }
 
-    /// Acceleration that reaches the target speed within 0.2 s, m/s²; none without a target, or after a first
-    /// collision.
+    /// Acceleration towards the target speed, m/s², with a time constant of 0.2 s and no more than a driver asks for; none
+    /// without a target, or after a first collision.
     pub(crate) fn speeds_up_m_s2(&self, time_s: f64, speed_m_s: f64, hit_s: Option<f64>) -> Option<f64> {
         let table = self.speed_m_s.as_ref().filter(|_| hit_s.is_none() || self.on_impact == OnImpact::Continue)?;
-        Some(table.slope_at(time_s) + (table.at(time_s) - speed_m_s) / SPEED_S)
+        let slope = table.slope_at(time_s);
+        let wanted = slope + (table.at(time_s) - speed_m_s) / SPEED_S;
+        let least = (slope - SPARE_M_S2).clamp(-MOST_M_S2, -BRAKES_M_S2);
+        let most = (slope + SPARE_M_S2).clamp(DRIVES_M_S2, MOST_M_S2);
+        Some(wanted.clamp(least, most))
     }
 
     /// Brake and drive torque at a time, N·m, after a first collision at another.
@@ -202,6 +206,13 @@ pub struct Follower {
 
 /// Time constant of speed control, s.
 const SPEED_S: f64 = 0.2;
+/// Largest acceleration and deceleration that a driver asks for to reach a speed, m/s²: estimates. Cars reach 0.3 to
+/// 0.5 g at full throttle from rest and 0.7 to 0.9 g in a full stop on dry asphalt.
+const DRIVES_M_S2: f64 = 0.4 * GRAVITY_M_S2;
+const BRAKES_M_S2: f64 = 0.8 * GRAVITY_M_S2;
+/// What he may ask for beyond the slope of a table that is steeper, and his limit even then, m/s².
+const SPARE_M_S2: f64 = 0.1 * GRAVITY_M_S2;
+const MOST_M_S2: f64 = GRAVITY_M_S2;
 
 /// Update interval of the driver, s.
 pub const LOOK_S: f64 = 0.01;

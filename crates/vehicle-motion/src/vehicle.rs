@@ -81,9 +81,9 @@ impl Vehicle {
         let steer_s = memory.hit_s.map_or(time_s, |hit_s| time_s.min(hit_s));
         let mut pedals = self.driver.pedals(time_s, memory.hit_s);
         let ahead_m_s = || (state.attitude().inverse() * state.velocity_m_s()).x;
-        if let Some(wanted) =
-            self.driver.speed_m_s.as_ref().and_then(|_| self.driver.speeds_up_m_s2(time_s, ahead_m_s(), memory.hit_s))
-        {
+        let wanted =
+            self.driver.speed_m_s.as_ref().and_then(|_| self.driver.speeds_up_m_s2(time_s, ahead_m_s(), memory.hit_s));
+        if let Some(wanted) = wanted {
             let torque_n_m = self.all_kg * wanted * self.radius_m;
             pedals = [(-torque_n_m).max(0.0), torque_n_m.max(0.0)];
         }
@@ -98,7 +98,7 @@ impl Vehicle {
         };
         let pair = ackermann_rad(mean, self.ackermann, self.track_m, self.wheelbase_m);
         let steer_rad = [0, 1, 2, 3].map(|i| if self.steered[i] { pair[i % 2] } else { 0.0 });
-        Controls { steer_rad, brake_n_m: pedals[0], drive_n_m: pedals[1] }
+        Controls { steer_rad, brake_n_m: pedals[0], drive_n_m: pedals[1], spares_grip: wanted.is_some() }
     }
 
     /// Updates the follower, and applies the demand from one delay ago.
