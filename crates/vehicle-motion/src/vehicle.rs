@@ -41,6 +41,8 @@ pub(crate) struct Memory {
     steer: [(f64, f64); 2],
     /// Angles demanded by the follower, newest last.
     wanted: Vec<(f64, f64)>,
+    /// How far along its line the follower has come, m.
+    along_m: Option<f64>,
     /// Time of the follower's next update, s.
     pub look_s: f64,
     /// Time of the first collision, s.
@@ -49,7 +51,14 @@ pub(crate) struct Memory {
 
 impl Memory {
     pub fn new() -> Self {
-        Memory { held: [false; WHEELS], steer: [(0.0, 0.0); 2], wanted: Vec::new(), look_s: 0.0, hit_s: None }
+        Memory {
+            held: [false; WHEELS],
+            steer: [(0.0, 0.0); 2],
+            wanted: Vec::new(),
+            along_m: None,
+            look_s: 0.0,
+            hit_s: None,
+        }
     }
 }
 
@@ -107,7 +116,8 @@ impl Vehicle {
         let [yaw, _, _] = state.yaw_pitch_roll_rad();
         let velocity = state.velocity_m_s();
         let speed = libm::hypot(velocity.x, velocity.y);
-        let wants = follower.wants_rad(state.position_m(), yaw, speed, self.rear_m, self.wheelbase_m);
+        let along_m = &mut memory.along_m;
+        let wants = follower.wants_rad(along_m, state.position_m(), yaw, speed, self.rear_m, self.wheelbase_m);
         memory.wanted.push((time_s, wants));
         let seen_s = time_s - follower.delay_s;
         let behind = memory.wanted.iter().take_while(|(t, _)| *t <= seen_s + 1e-9).count();
