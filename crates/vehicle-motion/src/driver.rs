@@ -214,6 +214,10 @@ const BRAKES_M_S2: f64 = 0.8 * GRAVITY_M_S2;
 const SPARE_M_S2: f64 = 0.1 * GRAVITY_M_S2;
 const MOST_M_S2: f64 = GRAVITY_M_S2;
 
+/// Angle beyond that of a turn at 1 g without slip, past which he steers no further, rad: an estimate. Tyres grip best at
+/// slip angles of 0.1 to 0.2.
+const GRIPPED_RAD: f64 = 0.1;
+
 /// Update interval of the driver, s.
 pub const LOOK_S: f64 = 0.01;
 /// Least preview distance, m, and preview time, s.
@@ -263,7 +267,7 @@ impl Follower {
         nearest
     }
 
-    /// Road-wheel angle demanded, rad, with the car at `position_m`, heading `yaw_rad`, at `speed_m_s`. `along_m` is how far
+    /// Road-wheel angle demanded, rad, with the car at `position_m`, heading `yaw_rad`, at `velocity_m_s`. `along_m` is how far
     /// along the line he has come, none before he first looks.
     ///
     /// He aims at the point of the line nearest to the place one preview distance ahead of the car. The way along the line
@@ -273,10 +277,11 @@ impl Follower {
         along_m: &mut Option<f64>,
         position_m: V3,
         yaw_rad: f64,
-        speed_m_s: f64,
+        velocity_m_s: V3,
         rear_m: f64,
         wheelbase_m: f64,
     ) -> f64 {
+        let speed_m_s = libm::hypot(velocity_m_s.x, velocity_m_s.y);
         let preview_m = PREVIEW_M.max(PREVIEW_S * speed_m_s);
         let (sine, cosine) = libm::sincos(yaw_rad);
         let ahead = |way_m: f64| [position_m.x + way_m * cosine, position_m.y + way_m * sine];
@@ -293,7 +298,13 @@ impl Follower {
         // δ = atan(2L sin η/d); what lies behind is turned to as what lies abreast
         let aside = if libm::cos(bearing) < 0.0 { 1f64.copysign(sin(bearing)) } else { sin(bearing) };
         let distance_m = (to_x * to_x + to_y * to_y).sqrt().max(1e-3);
-        atan(2.0 * wheelbase_m * aside / distance_m).clamp(-self.most_rad, self.most_rad)
+        let gripped_rad = atan(wheelbase_m * GRAVITY_M_S2 / (speed_m_s * speed_m_s)) + GRIPPED_RAD;
+        // a skid leaves him as much about the direction of travel
+        let [x, y] = [velocity_m_s.x * cosine + velocity_m_s.y * sine, velocity_m_s.y * cosine - velocity_m_s.x * sine];
+        let skids_rad = atan2(y, x);
+        let [least_rad, most_rad] = [skids_rad.min(0.0) - gripped_rad, skids_rad.max(0.0) + gripped_rad];
+        let wanted_rad = atan(2.0 * wheelbase_m * aside / distance_m);
+        wanted_rad.clamp(least_rad, most_rad).clamp(-self.most_rad, self.most_rad)
     }
 }
 
@@ -332,7 +343,7 @@ mod tests {
     #[test]
     fn on_the_line_he_steers_straight() {
         let line = Follower::new(vec![[0.0, 0.0], [100.0, 0.0]]).unwrap();
-        let wants = |place_m: V3| line.wants_rad(&mut None, place_m, 0.0, 20.0, -1.6, 2.7);
+        let wants = |place_m: V3| line.wants_rad(&mut None, place_m, 0.0, V3::x() * 20.0, -1.6, 2.7);
         assert!(wants(V3::new(10.0, 0.0, 0.0)).abs() < 1e-15);
         assert!(wants(V3::new(10.0, -1.0, 0.0)) > 0.0);
     }

@@ -114,10 +114,8 @@ impl Vehicle {
     pub fn look(&self, state: &State, time_s: f64, memory: &mut Memory) {
         let Steering::Follow(follower) = &self.driver.steering else { return };
         let [yaw, _, _] = state.yaw_pitch_roll_rad();
-        let velocity = state.velocity_m_s();
-        let speed = libm::hypot(velocity.x, velocity.y);
-        let along_m = &mut memory.along_m;
-        let wants = follower.wants_rad(along_m, state.position_m(), yaw, speed, self.rear_m, self.wheelbase_m);
+        let (place, velocity) = (state.position_m(), state.velocity_m_s());
+        let wants = follower.wants_rad(&mut memory.along_m, place, yaw, velocity, self.rear_m, self.wheelbase_m);
         memory.wanted.push((time_s, wants));
         let seen_s = time_s - follower.delay_s;
         let behind = memory.wanted.iter().take_while(|(t, _)| *t <= seen_s + 1e-9).count();

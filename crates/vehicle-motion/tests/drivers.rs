@@ -84,3 +84,20 @@ fn corners_of_any_angle_are_turned() {
         }
     }
 }
+
+/// Too fast for the corner: he steers no further than the tyres take, runs wide and comes back to the line.
+#[test]
+fn a_corner_taken_too_fast_is_run_wide() {
+    for degrees in [60.0f64, 90.0, -150.0] {
+        let (across, along) = degrees.to_radians().sin_cos();
+        let line = vec![[0.0, 0.0], [60.0, 0.0], [60.0 + 60.0 * along, 60.0 * across]];
+        let steering = Steering::Follow(Follower::new(line).unwrap());
+        let driver = Driver { steering, ..holding(Table::constant(15.0)) };
+        let ride = drives(0.8, driver, 15.0, 27.0);
+        let (x, y) = (ride.last().position_m.x - 60.0, ride.last().position_m.y);
+        let aside_m = y * along - x * across;
+        // with full lock he weaved about the line for longer than this, 0.9 to 9 m aside, at 4 to 9 m/s
+        assert!(aside_m.abs() < 0.1, "{degrees}: {aside_m}");
+        assert!(ride.last().velocity_m_s.norm() > 14.9, "{degrees}: {}", ride.last().velocity_m_s.norm());
+    }
+}
