@@ -118,8 +118,7 @@ impl Chassis {
             let axle = *car.axle(i);
             let side = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
             let (half_m, load_n) = (0.5 * axle.track_m, loads[i]);
-            let centre_m =
-                V3::new(axle.ahead_m, side * half_m, car.height_m - (tyre.radius_m - load_n / tyre.stiffness_n_per_m));
+            let centre_m = V3::new(axle.ahead_m, side * half_m, car.height_m - (tyre.radius_m - tyre.depth_m(load_n)));
             // the contact moves at right angles to the line to the roll centre
             let slide = V3::new(axle.anti_pitch, side * axle.roll_centre_m / half_m, -1.0).normalize();
             let preload_n = -slide.z * (load_n - axle.wheel_kg * GRAVITY_M_S2);
@@ -156,10 +155,14 @@ impl Chassis {
         self.height_m
     }
 
+    /// Depth of a tyre under its load at rest, m.
+    fn rest_depth_m(&self, wheel: usize) -> f64 {
+        self.tyre.depth_m(self.static_loads_n[wheel])
+    }
+
     /// Spin of a wheel that rolls at a speed under its load at rest, rad/s.
     pub fn rolling_spin_rad_s(&self, wheel: usize, speed_m_s: f64) -> f64 {
-        let depth_m = self.static_loads_n[wheel] / self.tyre.stiffness_n_per_m;
-        speed_m_s / (self.tyre.radius_m - depth_m / 3.0)
+        speed_m_s / (self.tyre.radius_m - self.rest_depth_m(wheel) / 3.0)
     }
 
     /// Position of a wheel's centre and direction of its axle to the right, body axes.
@@ -363,11 +366,10 @@ impl Chassis {
         let arm_m = place + to_body * (at.point_m - of.at_m);
         let velocity = of.velocity + of.turning.cross(&arm_m);
         let closing = -normal.dot(&velocity);
-        let beyond_m = (at.depth_m - tyre.rim_depth_m).max(0.0);
-        let elastic = tyre.stiffness_n_per_m * (at.depth_m + 9.0 * beyond_m) * at.share;
+        let elastic = tyre.radial_n(at.depth_m) * at.share;
         let load = (elastic + tyre.damping_n_s_per_m * closing).max(0.0);
         work.damping_j += (load - elastic) * closing;
-        let stored_j = tyre.stiffness_n_per_m * (0.5 * at.depth_m * at.depth_m + 4.5 * beyond_m * beyond_m);
+        let stored_j = tyre.radial_j(at.depth_m);
 
         let ahead = normal.cross(&of.axis).normalize();
         let right = ahead.cross(&normal);
