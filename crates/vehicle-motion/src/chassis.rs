@@ -156,7 +156,7 @@ impl Chassis {
     }
 
     /// Depth of a tyre under its load at rest, m.
-    fn rest_depth_m(&self, wheel: usize) -> f64 {
+    pub(crate) fn rest_depth_m(&self, wheel: usize) -> f64 {
         self.tyre.depth_m(self.static_loads_n[wheel])
     }
 
@@ -172,9 +172,9 @@ impl Chassis {
         (centre_m + slide * jounce_m, self.axle_direction(i, jounce_m, steer_rad))
     }
 
-    /// Free radius of the tyres, m.
-    pub(crate) fn radius_m(&self) -> f64 {
-        self.tyre.radius_m
+    /// The tyre of all wheels.
+    pub(crate) fn tyre(&self) -> &Tyre {
+        &self.tyre
     }
 
     /// Direction of a wheel's axle to the right, body axes.

@@ -172,6 +172,22 @@ impl Vehicle {
 }
 
 impl Chassis {
+    /// A wheel that is too deep in the ground to start there: its number, its depth, and the largest allowed, m.
+    pub(crate) fn buried(&self, state: &State, ground: &Ground) -> Option<(usize, f64, f64)> {
+        let (place_m, attitude) = (state.position_m(), state.attitude());
+        (0..WHEELS).find_map(|i| {
+            let (centre_m, axle) = self.wheel_at(state, i, 0.0);
+            let centre_m = place_m + attitude * centre_m;
+            let footprint = ground.footprint(centre_m, attitude * axle, self.tyre().radius_m, self.tyre().crown_m);
+            // a disc that lies all within the ground has no footprint
+            let under_m = ground.height_m(centre_m.x, centre_m.y) + centre_m.z;
+            let within_m = if under_m > 0.0 { self.tyre().radius_m + under_m } else { 0.0 };
+            let depth_m = footprint.map_or(0.0, |at| at.depth_m).max(within_m);
+            let most_m = self.tyre().rim_depth_m.max(2.0 * self.rest_depth_m(i));
+            (depth_m > most_m).then_some((i, depth_m, most_m))
+        })
+    }
+
     /// State at the start: on the ground, wheels rolling unless they stand.
     pub fn state_at(&self, start: &Start, ground: &Ground) -> State {
         let normal = ground.normal(start.x_m, start.y_m);
