@@ -16,6 +16,10 @@ use nalgebra::{Matrix3, Matrix6, Quaternion, Vector6};
 const STANDING_RAD_S: f64 = 0.5;
 /// Time constant with which slips decay off the ground, s.
 const FADING_S: f64 = 0.05;
+/// Slip at which a drive that spares the grip begins to let go, and the sliding speed to add near rest, m/s; at twice as
+/// much it has let go. Tyres grip best at a slip of 0.1 to 0.2.
+const SPARED_SLIP: f64 = 0.1;
+const SPARED_M_S: f64 = 0.3;
 
 /// Controls at a time, from driver and damage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,6 +30,8 @@ pub struct Controls {
     pub brake_n_m: f64,
     /// Drive torque, all wheels, N·m.
     pub drive_n_m: f64,
+    /// Whether the drive lets go of wheels that are off the ground or spin, as a driver or traction control does.
+    pub spares_grip: bool,
 }
 
 /// A wheel at one evaluation.
@@ -112,8 +118,7 @@ impl Chassis {
             let axle = *car.axle(i);
             let side = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
             let (half_m, load_n) = (0.5 * axle.track_m, loads[i]);
-            let centre_m =
-                V3::new(axle.ahead_m, side * half_m, car.height_m - (tyre.radius_m - load_n / tyre.stiffness_n_per_m));
+            let centre_m = V3::new(axle.ahead_m, side * half_m, car.height_m - (tyre.radius_m - tyre.depth_m(load_n)));
             // the contact moves at right angles to the line to the roll centre
             let slide = V3::new(axle.anti_pitch, side * axle.roll_centre_m / half_m, -1.0).normalize();
             let preload_n = -slide.z * (load_n - axle.wheel_kg * GRAVITY_M_S2);
@@ -150,10 +155,14 @@ impl Chassis {
         self.height_m
     }
 
+    /// Depth of a tyre under its load at rest, m.
+    pub(crate) fn rest_depth_m(&self, wheel: usize) -> f64 {
+        self.tyre.depth_m(self.static_loads_n[wheel])
+    }
+
     /// Spin of a wheel that rolls at a speed under its load at rest, rad/s.
     pub fn rolling_spin_rad_s(&self, wheel: usize, speed_m_s: f64) -> f64 {
-        let depth_m = self.static_loads_n[wheel] / self.tyre.stiffness_n_per_m;
-        speed_m_s / (self.tyre.radius_m - depth_m / 3.0)
+        speed_m_s / (self.tyre.radius_m - self.rest_depth_m(wheel) / 3.0)
     }
 
     /// Position of a wheel's centre and direction of its axle to the right, body axes.
@@ -163,9 +172,9 @@ impl Chassis {
         (centre_m + slide * jounce_m, self.axle_direction(i, jounce_m, steer_rad))
     }
 
-    /// Free radius of the tyres, m.
-    pub(crate) fn radius_m(&self) -> f64 {
-        self.tyre.radius_m
+    /// The tyre of all wheels.
+    pub(crate) fn tyre(&self) -> &Tyre {
+        &self.tyre
     }
 
     /// Direction of a wheel's axle to the right, body axes.
@@ -240,6 +249,7 @@ impl Chassis {
                 slips: state.slips(i),
                 brake_n_m: controls.brake_n_m * self.brake_share[i],
                 drive_n_m: controls.drive_n_m * self.drive_share[i],
+                spares_grip: controls.spares_grip,
                 spin_kg_m2: axle.spin_kg_m2,
                 is_held: held[i],
             };
@@ -334,13 +344,14 @@ impl Chassis {
             let brake = of.brake_n_m * standing;
             let braked = if of.is_held { 0.0 } else { brake * relative };
             work.braking_j += braked;
-            let driven = if of.is_held { 0.0 } else { of.drive_n_m * relative };
+            let drive_n_m = if of.spares_grip { 0.0 } else { of.drive_n_m };
+            let driven = if of.is_held { 0.0 } else { drive_n_m * relative };
             work.driving_j += driven;
             return Met {
                 force: V3::zeros(),
                 couple: V3::zeros(),
                 arm_m: place,
-                spin_rate: (of.drive_n_m - brake) / spin_inertia,
+                spin_rate: (drive_n_m - brake) / spin_inertia,
                 slip_rates: of.slips.map(|slip| -slip / FADING_S),
                 report: WheelReport {
                     brake_n_m: of.brake_n_m,
@@ -355,11 +366,10 @@ impl Chassis {
         let arm_m = place + to_body * (at.point_m - of.at_m);
         let velocity = of.velocity + of.turning.cross(&arm_m);
         let closing = -normal.dot(&velocity);
-        let beyond_m = (at.depth_m - tyre.rim_depth_m).max(0.0);
-        let elastic = tyre.stiffness_n_per_m * (at.depth_m + 9.0 * beyond_m) * at.share;
+        let elastic = tyre.radial_n(at.depth_m) * at.share;
         let load = (elastic + tyre.damping_n_s_per_m * closing).max(0.0);
         work.damping_j += (load - elastic) * closing;
-        let stored_j = tyre.stiffness_n_per_m * (0.5 * at.depth_m * at.depth_m + 4.5 * beyond_m * beyond_m);
+        let stored_j = tyre.radial_j(at.depth_m);
 
         let ahead = normal.cross(&of.axis).normalize();
         let right = ahead.cross(&normal);
@@ -382,17 +392,20 @@ impl Chassis {
         // more than twice what the ground can turn acts like a lock; the bound keeps the step long
         let brake_n_m = of.brake_n_m.min(2.0 * most * low_m + 50.0);
         let brake = brake_n_m * standing;
+        let spared_m_s = SPARED_M_S + SPARED_SLIP * (slide[0] + rolls).abs();
+        let kept = if of.spares_grip { (2.0 + slide[0] / spared_m_s).clamp(0.0, 1.0) } else { 1.0 };
+        let drive_n_m = of.drive_n_m * kept;
         if !of.is_held {
             work.braking_j += brake * relative;
             work.rolling_j += rolling * relative;
-            work.driving_j += of.drive_n_m * relative;
+            work.driving_j += drive_n_m * relative;
         }
         let spun_n_m = shear[0] * lever;
         Met {
             force: ahead * shear[0] + right * shear[1] + normal * load,
             couple: to_body * at.couple_m * (elastic / at.share.max(1e-9)),
             arm_m,
-            spin_rate: (of.drive_n_m - brake - spun_n_m - rolling) / spin_inertia,
+            spin_rate: (drive_n_m - brake - spun_n_m - rolling) / spin_inertia,
             slip_rates: tyre.slip_rates(of.slips, slide, rolls),
             report: WheelReport {
                 load_n: load,
@@ -486,6 +499,7 @@ struct Carrier {
     slips: [f64; 2],
     brake_n_m: f64,
     drive_n_m: f64,
+    spares_grip: bool,
     spin_kg_m2: f64,
     is_held: bool,
 }

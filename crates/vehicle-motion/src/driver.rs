@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use crate::V3;
+use crate::{GRAVITY_M_S2, V3};
 use libm::{atan, atan2, sin, tan};
 
 /// A number over time, linear between points and constant outside.
@@ -148,11 +148,15 @@ impl Driver {
         }
     }
 
-    /// Acceleration that reaches the target speed within 0.2 s, m/s²; none without a target, or after a first
-    /// collision.
+    /// Acceleration towards the target speed, m/s², with a time constant of 0.2 s and no more than a driver asks for; none
+    /// without a target, or after a first collision.
     pub(crate) fn speeds_up_m_s2(&self, time_s: f64, speed_m_s: f64, hit_s: Option<f64>) -> Option<f64> {
         let table = self.speed_m_s.as_ref().filter(|_| hit_s.is_none() || self.on_impact == OnImpact::Continue)?;
-        Some(table.slope_at(time_s) + (table.at(time_s) - speed_m_s) / SPEED_S)
+        let slope = table.slope_at(time_s);
+        let wanted = slope + (table.at(time_s) - speed_m_s) / SPEED_S;
+        let least = (slope - SPARE_M_S2).clamp(-MOST_M_S2, -BRAKES_M_S2);
+        let most = (slope + SPARE_M_S2).clamp(DRIVES_M_S2, MOST_M_S2);
+        Some(wanted.clamp(least, most))
     }
 
     /// Brake and drive torque at a time, N·m, after a first collision at another.
@@ -202,12 +206,26 @@ pub struct Follower {
 
 /// Time constant of speed control, s.
 const SPEED_S: f64 = 0.2;
+/// Largest acceleration and deceleration that a driver asks for to reach a speed, m/s²: estimates. Cars reach 0.3 to
+/// 0.5 g at full throttle from rest and 0.7 to 0.9 g in a full stop on dry asphalt.
+const DRIVES_M_S2: f64 = 0.4 * GRAVITY_M_S2;
+const BRAKES_M_S2: f64 = 0.8 * GRAVITY_M_S2;
+/// What he may ask for beyond the slope of a table that is steeper, and his limit even then, m/s².
+const SPARE_M_S2: f64 = 0.1 * GRAVITY_M_S2;
+const MOST_M_S2: f64 = GRAVITY_M_S2;
+
+/// Angle beyond that of a turn at 1 g without slip, past which he steers no further, rad: an estimate. Tyres grip best at
+/// slip angles of 0.1 to 0.2.
+const GRIPPED_RAD: f64 = 0.1;
 
 /// Update interval of the driver, s.
 pub const LOOK_S: f64 = 0.01;
 /// Least preview distance, m, and preview time, s.
 const PREVIEW_M: f64 = 6.0;
 const PREVIEW_S: f64 = 0.6;
+/// Least way along the line to the point he aims at over the preview distance, and its inverse the largest: a line that
+/// turns by less than 30° within the preview, or a car that heads as far away from it, reaches neither.
+const PREVIEW_SHARE: f64 = 0.866;
 
 impl Follower {
     /// Along a line with 0.1 s of delay and 600 °/s at a steering wheel of ratio 16.
@@ -223,31 +241,70 @@ impl Follower {
         Ok(Follower { line_m, delay_s: 0.1, rate_rad_s, most_rad: 0.5, until_s: f64::INFINITY })
     }
 
-    /// The point of the line nearest to a place, m.
-    fn nearest_m(&self, place: [f64; 2]) -> [f64; 2] {
-        let on = |pair: &[[f64; 2]]| {
+    /// The point of the line nearest to a place, m, and its way along the line, m, of those whose way lies within bounds. The
+    /// last piece has no end: he drives on.
+    fn nearest_m(&self, place: [f64; 2], [least_m, most_m]: [f64; 2]) -> ([f64; 2], f64) {
+        let pieces = self.line_m.len() - 1;
+        let mut from_m = 0.0;
+        let (mut nearest, mut least) = ((self.line_m[0], 0.0), f64::INFINITY);
+        for (i, pair) in self.line_m.windows(2).enumerate() {
             let way = [0, 1].map(|j| pair[1][j] - pair[0][j]);
             let square = way[0] * way[0] + way[1] * way[1];
-            let share = [0, 1].map(|j| (place[j] - pair[0][j]) * way[j]).iter().sum::<f64>() / square;
-            [0, 1].map(|j| pair[0][j] + share.clamp(0.0, 1.0) * way[j])
-        };
-        let far = |p: &[f64; 2]| (p[0] - place[0]) * (p[0] - place[0]) + (p[1] - place[1]) * (p[1] - place[1]);
-        let points = self.line_m.windows(2).map(on);
-        points.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(self.line_m[0])
+            let length_m = square.sqrt();
+            let end = if i + 1 == pieces { f64::INFINITY } else { 1.0 };
+            let [first, last] = [(least_m - from_m) / length_m, (most_m - from_m) / length_m];
+            if first <= end && last >= 0.0 {
+                let share = [0, 1].map(|j| (place[j] - pair[0][j]) * way[j]).iter().sum::<f64>() / square;
+                let share = share.clamp(first.max(0.0), last.min(end));
+                let point = [0, 1].map(|j| pair[0][j] + share * way[j]);
+                let far = (point[0] - place[0]) * (point[0] - place[0]) + (point[1] - place[1]) * (point[1] - place[1]);
+                if far < least {
+                    (nearest, least) = ((point, from_m + share * length_m), far);
+                }
+            }
+            from_m += length_m;
+        }
+        nearest
     }
 
-    /// Road-wheel angle demanded, rad, with the car at `position_m`, heading `yaw_rad`, at `speed_m_s`.
-    pub fn wants_rad(&self, position_m: V3, yaw_rad: f64, speed_m_s: f64, rear_m: f64, wheelbase_m: f64) -> f64 {
+    /// Road-wheel angle demanded, rad, with the car at `position_m`, heading `yaw_rad`, at `velocity_m_s`. `along_m` is how far
+    /// along the line he has come, none before he first looks.
+    ///
+    /// He aims at the point of the line nearest to the place one preview distance ahead of the car. The way along the line
+    /// from the car to that point stays near the preview distance, so that he turns at a corner of any angle.
+    pub fn wants_rad(
+        &self,
+        along_m: &mut Option<f64>,
+        position_m: V3,
+        yaw_rad: f64,
+        velocity_m_s: V3,
+        rear_m: f64,
+        wheelbase_m: f64,
+    ) -> f64 {
+        let speed_m_s = libm::hypot(velocity_m_s.x, velocity_m_s.y);
         let preview_m = PREVIEW_M.max(PREVIEW_S * speed_m_s);
         let (sine, cosine) = libm::sincos(yaw_rad);
         let ahead = |way_m: f64| [position_m.x + way_m * cosine, position_m.y + way_m * sine];
-        let [x, y] = self.nearest_m(ahead(preview_m));
+        // onwards only, and not across to a part of the line far ahead
+        let come = along_m.map_or([0.0, f64::INFINITY], |come_m| [come_m, come_m + preview_m]);
+        let (_, come_m) = self.nearest_m(ahead(0.0), come);
+        *along_m = Some(come_m);
+        // ahead of its first point he heads for the line as it comes
+        let least_m = if come_m > 0.0 { come_m + preview_m * PREVIEW_SHARE } else { 0.0 };
+        let ([x, y], _) = self.nearest_m(ahead(preview_m), [least_m, come_m + preview_m / PREVIEW_SHARE]);
         let [rear_x, rear_y] = ahead(rear_m);
         let (to_x, to_y) = (x - rear_x, y - rear_y);
         let bearing = atan2(to_y, to_x) - yaw_rad;
-        // δ = atan(2L sin η/d)
+        // δ = atan(2L sin η/d); what lies behind is turned to as what lies abreast
+        let aside = if libm::cos(bearing) < 0.0 { 1f64.copysign(sin(bearing)) } else { sin(bearing) };
         let distance_m = (to_x * to_x + to_y * to_y).sqrt().max(1e-3);
-        atan(2.0 * wheelbase_m * sin(bearing) / distance_m).clamp(-self.most_rad, self.most_rad)
+        let gripped_rad = atan(wheelbase_m * GRAVITY_M_S2 / (speed_m_s * speed_m_s)) + GRIPPED_RAD;
+        // a skid leaves him as much about the direction of travel
+        let [x, y] = [velocity_m_s.x * cosine + velocity_m_s.y * sine, velocity_m_s.y * cosine - velocity_m_s.x * sine];
+        let skids_rad = atan2(y, x);
+        let [least_rad, most_rad] = [skids_rad.min(0.0) - gripped_rad, skids_rad.max(0.0) + gripped_rad];
+        let wanted_rad = atan(2.0 * wheelbase_m * aside / distance_m);
+        wanted_rad.clamp(least_rad, most_rad).clamp(-self.most_rad, self.most_rad)
     }
 }
 
@@ -286,7 +343,8 @@ mod tests {
     #[test]
     fn on_the_line_he_steers_straight() {
         let line = Follower::new(vec![[0.0, 0.0], [100.0, 0.0]]).unwrap();
-        assert!(line.wants_rad(V3::new(10.0, 0.0, 0.0), 0.0, 20.0, -1.6, 2.7).abs() < 1e-15);
-        assert!(line.wants_rad(V3::new(10.0, -1.0, 0.0), 0.0, 20.0, -1.6, 2.7) > 0.0);
+        let wants = |place_m: V3| line.wants_rad(&mut None, place_m, 0.0, V3::x() * 20.0, -1.6, 2.7);
+        assert!(wants(V3::new(10.0, 0.0, 0.0)).abs() < 1e-15);
+        assert!(wants(V3::new(10.0, -1.0, 0.0)) > 0.0);
     }
 }

@@ -88,3 +88,6 @@ pub const GRAVITY_M_S2: f64 = 9.80665;
 
 /// Left front, right front, left rear, right rear.
 pub const WHEELS: usize = 4;
+
+/// Their names.
+pub const WHEEL_NAMES: [&str; WHEELS] = ["left front", "right front", "left rear", "right rear"];

@@ -1,5 +1,7 @@
 //! The motion of one vehicle: its start, and the results at its accepted steps.
 
+use core::f64::consts::{PI, TAU};
+
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::chassis::WheelReport;
@@ -78,6 +80,26 @@ impl Ride {
     /// The motion at the end.
     pub fn last(&self) -> &Station {
         &self.stations[self.stations.len() - 1]
+    }
+
+    /// Yaw, pitch and roll (SAE J670) at all stations, rad, that continue beyond half a turn.
+    ///
+    /// An attitude has many names: whole turns may be added to each angle, and yaw and roll turned by half a turn with π − pitch
+    /// for the pitch is the same attitude. Each is named by the angles nearest to those of the station before.
+    pub fn turns_rad(&self) -> Vec<[f64; 3]> {
+        let mut last: Option<[f64; 3]> = None;
+        let name = |station: &Station| {
+            let found = station.state.yaw_pitch_roll_rad();
+            let Some(before) = last else { return *last.insert(found) };
+            let near =
+                |angles: [f64; 3]| [0, 1, 2].map(|i| angles[i] - TAU * libm::round((angles[i] - before[i]) / TAU));
+            let far =
+                |angles: &[f64; 3]| (0..3).map(|i| (angles[i] - before[i]) * (angles[i] - before[i])).sum::<f64>();
+            let [yaw, pitch, roll] = found;
+            let names = [near(found), near([yaw + PI, PI - pitch, roll + PI])];
+            *last.insert(if far(&names[1]) < far(&names[0]) { names[1] } else { names[0] })
+        };
+        self.stations.iter().map(name).collect()
     }
 
     /// Error of the energy balance of everything driven together, relative to the largest kinetic energy.

@@ -43,9 +43,9 @@ impl Drive {
     /// Drives from a start for `end_s` s.
     ///
     /// # Errors
-    /// A start that is not finite; steps that become too short.
+    /// A start that is not finite, or with a wheel within the ground; steps that become too short.
     pub fn run(&self, start: &Start, end_s: f64) -> Result<Ride, WorldError> {
-        self.run_from(self.state_at(start), end_s)
+        self.begun(Begin::At(*start), end_s)
     }
 
     /// Drives from a state for `end_s` s.
@@ -53,9 +53,13 @@ impl Drive {
     /// # Errors
     /// A state that is not finite; steps that become too short.
     pub fn run_from(&self, start: State, end_s: f64) -> Result<Ride, WorldError> {
+        self.begun(Begin::State(start), end_s)
+    }
+
+    fn begun(&self, begin: Begin, end_s: f64) -> Result<Ride, WorldError> {
         let mut world = self.world.clone();
         world.tolerance = self.tolerance;
-        world.cars[0].begin = Begin::State(start);
+        world.cars[0].begin = begin;
         Ok(world.run(end_s)?.rides.swap_remove(0))
     }
 }

@@ -8,6 +8,8 @@ use libm::{atan, exp, sin};
 
 /// Bound of the transient slips.
 pub const SLIP_BOUND: f64 = 0.1;
+/// Stiffness of the rim relative to that of the tyre, to which it is added.
+const RIM_GAIN: f64 = 9.0;
 
 /// A tyre; one kind for all wheels of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +81,23 @@ impl Tyre {
         // C_y = c_α F₀ sin(2 atan(F_z/(q F₀)))/sin(2 atan(1/q))
         let lateral = self.cornering_per_rad * self.reference_load_n * over(load_n) / over(self.reference_load_n);
         [self.slip_stiffness * load_n, lateral]
+    }
+
+    /// Force of the radial spring at a depth, N.
+    pub fn radial_n(&self, depth_m: f64) -> f64 {
+        self.stiffness_n_per_m * (depth_m + RIM_GAIN * (depth_m - self.rim_depth_m).max(0.0))
+    }
+
+    /// Its energy, J.
+    pub fn radial_j(&self, depth_m: f64) -> f64 {
+        let beyond_m = (depth_m - self.rim_depth_m).max(0.0);
+        self.stiffness_n_per_m * (0.5 * depth_m * depth_m + 0.5 * RIM_GAIN * beyond_m * beyond_m)
+    }
+
+    /// Depth at which it bears a load, m.
+    pub fn depth_m(&self, load_n: f64) -> f64 {
+        let soft_m = load_n / self.stiffness_n_per_m;
+        soft_m - RIM_GAIN / (1.0 + RIM_GAIN) * (soft_m - self.rim_depth_m).max(0.0)
     }
 
     /// Friction at a sliding speed, load, and surface factor.

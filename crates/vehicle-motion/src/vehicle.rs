@@ -41,6 +41,8 @@ pub(crate) struct Memory {
     steer: [(f64, f64); 2],
     /// Angles demanded by the follower, newest last.
     wanted: Vec<(f64, f64)>,
+    /// How far along its line the follower has come, m.
+    along_m: Option<f64>,
     /// Time of the follower's next update, s.
     pub look_s: f64,
     /// Time of the first collision, s.
@@ -49,7 +51,14 @@ pub(crate) struct Memory {
 
 impl Memory {
     pub fn new() -> Self {
-        Memory { held: [false; WHEELS], steer: [(0.0, 0.0); 2], wanted: Vec::new(), look_s: 0.0, hit_s: None }
+        Memory {
+            held: [false; WHEELS],
+            steer: [(0.0, 0.0); 2],
+            wanted: Vec::new(),
+            along_m: None,
+            look_s: 0.0,
+            hit_s: None,
+        }
     }
 }
 
@@ -81,9 +90,9 @@ impl Vehicle {
         let steer_s = memory.hit_s.map_or(time_s, |hit_s| time_s.min(hit_s));
         let mut pedals = self.driver.pedals(time_s, memory.hit_s);
         let ahead_m_s = || (state.attitude().inverse() * state.velocity_m_s()).x;
-        if let Some(wanted) =
-            self.driver.speed_m_s.as_ref().and_then(|_| self.driver.speeds_up_m_s2(time_s, ahead_m_s(), memory.hit_s))
-        {
+        let wanted =
+            self.driver.speed_m_s.as_ref().and_then(|_| self.driver.speeds_up_m_s2(time_s, ahead_m_s(), memory.hit_s));
+        if let Some(wanted) = wanted {
             let torque_n_m = self.all_kg * wanted * self.radius_m;
             pedals = [(-torque_n_m).max(0.0), torque_n_m.max(0.0)];
         }
@@ -98,16 +107,15 @@ impl Vehicle {
         };
         let pair = ackermann_rad(mean, self.ackermann, self.track_m, self.wheelbase_m);
         let steer_rad = [0, 1, 2, 3].map(|i| if self.steered[i] { pair[i % 2] } else { 0.0 });
-        Controls { steer_rad, brake_n_m: pedals[0], drive_n_m: pedals[1] }
+        Controls { steer_rad, brake_n_m: pedals[0], drive_n_m: pedals[1], spares_grip: wanted.is_some() }
     }
 
     /// Updates the follower, and applies the demand from one delay ago.
     pub fn look(&self, state: &State, time_s: f64, memory: &mut Memory) {
         let Steering::Follow(follower) = &self.driver.steering else { return };
         let [yaw, _, _] = state.yaw_pitch_roll_rad();
-        let velocity = state.velocity_m_s();
-        let speed = libm::hypot(velocity.x, velocity.y);
-        let wants = follower.wants_rad(state.position_m(), yaw, speed, self.rear_m, self.wheelbase_m);
+        let (place, velocity) = (state.position_m(), state.velocity_m_s());
+        let wants = follower.wants_rad(&mut memory.along_m, place, yaw, velocity, self.rear_m, self.wheelbase_m);
         memory.wanted.push((time_s, wants));
         let seen_s = time_s - follower.delay_s;
         let behind = memory.wanted.iter().take_while(|(t, _)| *t <= seen_s + 1e-9).count();
@@ -164,6 +172,22 @@ impl Vehicle {
 }
 
 impl Chassis {
+    /// A wheel that is too deep in the ground to start there: its number, its depth, and the largest allowed, m.
+    pub(crate) fn buried(&self, state: &State, ground: &Ground) -> Option<(usize, f64, f64)> {
+        let (place_m, attitude) = (state.position_m(), state.attitude());
+        (0..WHEELS).find_map(|i| {
+            let (centre_m, axle) = self.wheel_at(state, i, 0.0);
+            let centre_m = place_m + attitude * centre_m;
+            let footprint = ground.footprint(centre_m, attitude * axle, self.tyre().radius_m, self.tyre().crown_m);
+            // a disc that lies all within the ground has no footprint
+            let under_m = ground.height_m(centre_m.x, centre_m.y) + centre_m.z;
+            let within_m = if under_m > 0.0 { self.tyre().radius_m + under_m } else { 0.0 };
+            let depth_m = footprint.map_or(0.0, |at| at.depth_m).max(within_m);
+            let most_m = self.tyre().rim_depth_m.max(2.0 * self.rest_depth_m(i));
+            (depth_m > most_m).then_some((i, depth_m, most_m))
+        })
+    }
+
     /// State at the start: on the ground, wheels rolling unless they stand.
     pub fn state_at(&self, start: &Start, ground: &Ground) -> State {
         let normal = ground.normal(start.x_m, start.y_m);

@@ -38,7 +38,12 @@ fn rates_are_those_of_a_dense_formulation() {
         let number = |key: &str| case[key].as_f64().unwrap();
         let steer = number("steer");
         // the reference steers all wheels
-        let controls = Controls { steer_rad: [steer; 4], brake_n_m: number("brake"), drive_n_m: number("drive") };
+        let controls = Controls {
+            steer_rad: [steer; 4],
+            brake_n_m: number("brake"),
+            drive_n_m: number("drive"),
+            ..Controls::default()
+        };
         let mut rates = State([0.0; NUMBERS]);
         let report = chassis.rates(&state, &controls, [false; 4], &ground, &Outside::default(), &mut rates);
         for (i, (found, expected)) in rates.0.iter().zip(numbers(&case["rate"])).enumerate() {
@@ -75,7 +80,8 @@ fn the_mirrored_state_has_the_mirrored_rates() {
             let mut state = State([0.0; NUMBERS]);
             state.0[..33].copy_from_slice(numbers);
             let steer = sign * case["steer"].as_f64().unwrap();
-            let controls = Controls { steer_rad: [steer; 4], brake_n_m: 2000.0, drive_n_m: 300.0 };
+            let controls =
+                Controls { steer_rad: [steer; 4], brake_n_m: 2000.0, drive_n_m: 300.0, ..Controls::default() };
             let mut rates = State([0.0; NUMBERS]);
             chassis.rates(
                 &state,

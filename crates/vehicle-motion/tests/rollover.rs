@@ -116,3 +116,25 @@ fn a_roof_strikes_a_wall() {
     assert!(struck.damage[0].roof_m > 0.1 && struck.rides[0].last().velocity_m_s.y < 1.0, "{:?}", struck.damage[0]);
     assert!(struck.balance.abs() < 1e-3, "{}", struck.balance);
 }
+
+/// In free fall: two turns about the roll axis are 720°, and a turn end over end is all pitch.
+#[test]
+fn turns_are_counted_on() {
+    let drive = Drive::new(&proof_car(0.8), Ground::level(), Driver::coasting()).unwrap();
+    for (rotation, angle) in [([9.0, 0.0, 0.0], 2), ([-9.0, 0.0, 0.0], 2), ([0.0, -5.0, 0.0], 1), ([0.0, 0.0, 8.0], 0)]
+    {
+        let mut state = drive.state_at(&Start::default());
+        state.0[2] -= 30.0;
+        state.0[10..13].copy_from_slice(&rotation);
+        // wheels that do not spin in space have no moment across their axles
+        let ride = drive.run_from(state, 1.5).unwrap();
+        let turns = ride.turns_rad();
+        let last = turns[turns.len() - 1];
+        let expected = 1.5 * rotation.iter().sum::<f64>();
+        for (i, turned) in last.iter().enumerate() {
+            let expected = if i == angle { expected } else { 0.0 };
+            assert!((turned - expected).abs() < 0.5, "{rotation:?}: {last:?}");
+        }
+        assert_eq!(turns.len(), ride.stations().len());
+    }
+}

@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use occupant_units::trig;
 use serde::Serialize;
 use vehicle_motion::ground::Ground;
 use vehicle_motion::run::{Ride, Station};
@@ -40,15 +41,20 @@ pub(super) fn of(ride: &Ride, ground: &Ground, collisions: &[Collision]) -> Vec<
     let spins = slips.windows(2).position(|pair| pair[0].abs() <= FRAC_PI_2 && pair[1].abs() > FRAC_PI_2);
     let spins = spins.map(|before| stations[before + 1].time_s);
     events.extend(spins.map(|time_s| Event { time_s, what: SPINS.to_owned() }));
-    let mut first = |what: &str, is_so: &dyn Fn(&Station) -> bool| {
-        let found = stations.iter().find(|station| is_so(station));
-        events.extend(found.map(|station| Event { time_s: station.time_s, what: what.to_owned() }));
+    let turns = ride.turns_rad();
+    let mut first = |what: &str, is_so: &dyn Fn(&[f64; 3]) -> bool| {
+        let found = turns.iter().position(is_so);
+        events.extend(found.map(|i| Event { time_s: stations[i].time_s, what: what.to_owned() }));
     };
-    let roll = |station: &Station| station.state.yaw_pitch_roll_rad()[2].abs();
-    first("on its side: a quarter turn", &|station| roll(station) > FRAC_PI_2);
-    first("on its roof", &|station| roll(station) > 170f64.to_radians());
+    first("on its side: a quarter turn", &|[_, _, roll]| roll.abs() > FRAC_PI_2);
+    first("on its roof", &|[_, pitch, roll]| is_over(*roll, *pitch) || is_over(*pitch, *roll));
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
     events
+}
+
+/// Whether a roll or pitch is within 10° of upside down, while the other leaves it so.
+fn is_over(turn: f64, other: f64) -> bool {
+    trig::cos(turn) < trig::cos(170f64.to_radians()) && trig::cos(other) > 0.0
 }
 
 /// Transitions of a wheel between zones.

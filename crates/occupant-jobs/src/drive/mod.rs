@@ -100,6 +100,10 @@ impl Figurable {
         let greatest = |of: &dyn Fn(&Station) -> f64| {
             stations.iter().map(|station| (of(station), station.time_s)).fold((0.0, 0.0), most)
         };
+        let turns = ride.turns_rad();
+        let turn = |i: usize| {
+            turns.iter().zip(stations).map(|(turn, station)| (turn[i], station.time_s)).fold((0.0, 0.0), most)
+        };
         let slips = slips_rad(stations).into_iter().zip(stations);
         let moving = stations.iter().rev().find(|station| station.velocity_m_s.norm() > REST_M_S);
         let last_s = ride.last().time_s;
@@ -107,9 +111,9 @@ impl Figurable {
         Figurable {
             rest_s: (after_s < last_s - 0.1).then_some(after_s),
             distance_m: stations.windows(2).map(|pair| (pair[1].position_m - pair[0].position_m).norm()).sum(),
-            turned_rad: turned(stations),
-            roll: greatest(&|station| station.state.yaw_pitch_roll_rad()[2]),
-            pitch: greatest(&|station| station.state.yaw_pitch_roll_rad()[1]),
+            turned_rad: turns[turns.len() - 1][0] - turns[0][0],
+            roll: turn(2),
+            pitch: turn(1),
             slip: slips.map(|(slip, station)| (slip, station.time_s)).fold((0.0, 0.0), most),
             slope: greatest(&|station| {
                 let normal = drives.world.ground.normal(station.position_m.x, station.position_m.y);
@@ -117,15 +121,6 @@ impl Figurable {
             }),
         }
     }
-}
-
-/// Yaw from the first to the last station, rad.
-fn turned(stations: &[Station]) -> f64 {
-    let step = |pair: &[Station]| {
-        let turn = pair[1].state.yaw_pitch_roll_rad()[0] - pair[0].state.yaw_pitch_roll_rad()[0];
-        turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round()
-    };
-    stations.windows(2).map(step).sum()
 }
 
 /// Names of the wheels in channels and in text.

@@ -128,6 +128,15 @@ fn speeds_are_followed() {
     assert!((slowed - 12.0).abs() < 0.3, "{slowed}");
 }
 
+/// Across a curb the right wheels start within it: the start is named.
+#[test]
+fn a_start_across_a_curb_is_refused() {
+    let text = complaint(&short(&BRAKES.replace("friction = 0.8", "curbs = [{ right = 0.1, height = 0.15 }]")));
+    for part in ["drive.vehicles.car.start", "its right front wheel is 0.17", "at most 0.055 m: move the start"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
 /// A ditch by its slopes is the section of its corners: 3 m of shoulder, 1:4 down by 2 m, 3 m of bottom, 1:3 up by 3 m, level behind.
 #[test]
 fn a_ditch_is_the_section_of_its_slopes() {
@@ -157,7 +166,9 @@ fn a_ditch_is_the_section_of_its_slopes() {
 /// Ground along a line and from a grid is what the same cross-section along x is.
 #[test]
 fn a_line_and_a_grid_are_the_ground_they_describe() {
-    let ground = |keys: &str| driven(&short(&BRAKES.replace("friction = 0.8", keys))).world.ground.clone();
+    // before the ramps, which begin at x = 0: across an edge no start is allowed
+    let before = BRAKES.replace("start = { speed = \"20 m/s\" }", "start = { speed = \"20 m/s\", x = -60 }");
+    let ground = |keys: &str| driven(&short(&before.replace("friction = 0.8", keys))).world.ground.clone();
     let ditch = "ditch = { edge = 3, foreslope = 4, depth = 2 }\ngrade = 0.02\n";
     let section = ground(ditch);
     let line = "line = { points = [[0, 0], [200, 0], [200, 200]], radius = 60 }\n";

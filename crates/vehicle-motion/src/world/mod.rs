@@ -11,7 +11,6 @@ pub(crate) mod setup;
 pub use contact::{Contact, Partner, Struck};
 pub use damage::{Damage, Dent, Profile};
 
-use crate::V3;
 use crate::barrier::Barrier;
 use crate::car::{Car, CarError};
 use crate::driver::{Driver, Table};
@@ -19,6 +18,7 @@ use crate::ground::Ground;
 use crate::integrate::Tolerance;
 use crate::ride::{Ride, Start};
 use crate::state::State;
+use crate::{V3, WHEEL_NAMES};
 
 /// Vehicles and their surroundings.
 #[derive(Clone, Debug)]
@@ -249,6 +249,22 @@ pub enum WorldError {
         barrier: usize,
         /// Penetration, m.
         depth_m: f64,
+    },
+    /// A vehicle that starts with a wheel within the ground: across a curb or an edge.
+    #[error(
+        "vehicle {}: its {} wheel is {depth_m:.3} m deep in the ground at the start; expected at most {most_m:.3} m: \
+         move the start, or the curb or edge that it lies across",
+        car + 1, WHEEL_NAMES[*wheel]
+    )]
+    Buried {
+        /// Number of the vehicle.
+        car: usize,
+        /// Number of the wheel.
+        wheel: usize,
+        /// Its depth, m.
+        depth_m: f64,
+        /// Depth at which its rim bears, or twice that at rest, m.
+        most_m: f64,
     },
     /// An invalid barrier.
     #[error("barrier {}: {what}", barrier + 1)]

@@ -11,7 +11,7 @@ use crate::world::contact::{Contact, ENDS_AFTER_S, FADES, LEAST_N};
 use crate::world::evaluate::{Findings, NEAR_M};
 use crate::world::pulse::Pulse;
 use crate::world::setup::{Memories, Pair, Setup};
-use crate::world::{Bend, Miss, Missed, Outcome, Partner, World, WorldError, Wrench};
+use crate::world::{Begin, Bend, Miss, Missed, Outcome, Partner, World, WorldError, Wrench};
 
 /// Shortest step, s; smaller ones fail.
 const SHORTEST_S: f64 = 1e-9;
@@ -199,6 +199,11 @@ impl<'a> Runner<'a> {
             }
         }
         for (i, vehicle) in self.setup.vehicles.iter().enumerate() {
+            let (entry, ground) = (&self.setup.world.cars[i], &self.setup.world.ground);
+            let buried = vehicle.chassis.buried(&self.stack.cars[i], ground);
+            if let (Begin::At(_), Some((wheel, depth_m, most_m))) = (&entry.begin, buried) {
+                return Err(WorldError::Buried { car: i, wheel, depth_m, most_m });
+            }
             vehicle.look(&self.stack.cars[i], 0.0, &mut self.memories.vehicles[i]);
             vehicle.hold_locked(&mut self.stack.cars[i], 0.0, &mut self.memories.vehicles[i]);
             let (hull, memory) = (&self.setup.hulls[i], &mut self.memories.hulls[i]);

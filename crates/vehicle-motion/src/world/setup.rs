@@ -114,7 +114,7 @@ impl<'a> Setup<'a> {
         }
         setup.pair_cars();
         let obstacles = setup.obstacles();
-        let hull = |v: &Vehicle| Hull::of(&v.body, v.chassis.height_m(), v.chassis.radius_m(), obstacles.clone());
+        let hull = |v: &Vehicle| Hull::of(&v.body, v.chassis.height_m(), v.chassis.tyre().radius_m, obstacles.clone());
         setup.hulls = setup.vehicles.iter().map(hull).collect();
         Ok(setup)
     }

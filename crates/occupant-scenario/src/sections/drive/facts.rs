@@ -18,11 +18,11 @@ pub(crate) fn facts(drives: &Drives) -> Vec<Fact> {
 
 fn of(drives: &Drives, number: usize) -> Vec<Fact> {
     let name = &drives.vehicles[number].name;
-    let (stations, damage) = (drives.outcome.rides[number].stations(), &drives.outcome.damage[number]);
-    let last = drives.outcome.rides[number].last();
+    let (ride, damage) = (&drives.outcome.rides[number], &drives.outcome.damage[number]);
+    let last = ride.last();
     let struck = drives.outcome.contacts.iter().filter_map(|contact| side(contact, number));
     let delta_v = struck.map(|struck| struck.delta_v_m_s.norm()).fold(0.0, f64::max);
-    let roll = |station: &Station| station.state.yaw_pitch_roll_rad()[2].abs();
+    let max_roll = ride.turns_rad().iter().map(|[_, _, roll]| roll.abs()).fold(0.0, f64::max);
     let figures = [
         ("delta_v", "m/s", delta_v),
         ("ees", "m/s", damage.ees_m_s),
@@ -32,7 +32,7 @@ fn of(drives: &Drives, number: usize) -> Vec<Fact> {
         ("end_x", "m", last.position_m.x),
         ("end_y", "m", last.position_m.y),
         ("end_yaw", "rad", last.state.yaw_pitch_roll_rad()[0]),
-        ("max_roll", "rad", stations.iter().map(roll).fold(0.0, f64::max)),
+        ("max_roll", "rad", max_roll),
     ];
     let fact =
         |(key, unit, value): (&str, &'static str, f64)| Fact { name: format!("drive.{name}.{key}"), unit, value };

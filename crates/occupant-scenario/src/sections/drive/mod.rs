@@ -18,11 +18,11 @@ use std::sync::Arc;
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vehicle_motion::V3;
 use vehicle_motion::car::{Car, CarError};
 use vehicle_motion::integrate::Tolerance;
 use vehicle_motion::path::DrivenPath as Motion;
 use vehicle_motion::world::{Begin, Entry, Outcome, World, WorldError};
+use vehicle_motion::{V3, WHEEL_NAMES};
 
 use self::barriers::BarrierSection;
 use self::crush::ImpactSection;
@@ -289,6 +289,12 @@ fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
         WorldError::Late { impact, time_s, end_s } => {
             let found = format!("{time_s} s, and the drive ends at {end_s} s");
             b.error(&format!("drive.impacts[{impact}].time"), found, "a time before the end of the drive");
+        }
+        WorldError::Buried { car, wheel, depth_m, most_m } => {
+            let wheel = WHEEL_NAMES[*wheel];
+            let found = format!("its {wheel} wheel is {depth_m:.3} m deep in the ground at the start");
+            let expected = format!("at most {most_m:.3} m: move the start, or the curb or edge that it lies across");
+            b.error(&with_key(&at(*car), "start"), found, expected);
         }
         WorldError::Barrier { barrier, what } => {
             let name = section.barriers.get_index(*barrier).map_or("", |(name, _)| name.as_str());
