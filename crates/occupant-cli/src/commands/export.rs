@@ -97,9 +97,7 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
         return export_mme(args, &output, &results, &histories);
     };
     if args.axes != AxisChoice::Segment {
-        note(
-            "y and z of segments have the signs of SAE J211; `compare`, `measures` and `fit` read tables with the axes of segments",
-        );
+        note(&"y and z of segments have the signs of SAE J211; `compare`, `measures` and `fit` read tables in segment axes".to_owned());
     }
     let histories = args.axes.turned(histories);
     let coefficients = (treatment.filter != Filter::None).then(|| family_name(treatment.family));
