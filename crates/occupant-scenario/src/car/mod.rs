@@ -188,7 +188,7 @@ struct Lacks {
     body: bool,
     /// The joints.
     joints: bool,
-    /// Deformable parts: an adult with the joints of a person, without any of his own.
+    /// Deformable parts: an adult with the joints and the segments of a person.
     flesh: bool,
     /// Flesh under a lap belt on iliac wings: such a person, or the dummy of an adult.
     pelvis: bool,
@@ -245,16 +245,17 @@ fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option
         |node: Option<&Node>, keys: &[&str]| node.is_some_and(|node| keys.iter().any(|key| node.get(key).is_some()));
     let preset = joints.and_then(|joints| joints.get("preset")).and_then(Node::as_str);
     let is_person = preset.is_none_or(|preset| presets::OF_PEOPLE.contains(&preset));
-    let flesh = is_person
-        && person.is_some()
-        && !says(body, &["dummy", "chest", "pelvis", "abdomen", "segments", "segment_count"]);
+    let other_count =
+        section.as_ref().and_then(|own| own.segment_count).is_some_and(|count| count != ride::SEGMENTS as i64);
+    let flesh = is_person && person.is_some() && !other_count && !says(body, &["dummy", "segments"]);
+    let hard = body.and_then(|body| body.get("pelvis")).and_then(Node::as_str).is_some_and(|pelvis| pelvis != "flesh");
     let dummy = section.and_then(|own| own.dummy);
     let is_adult_dummy = dummy.is_some_and(|dummy| dummy != DummyChoice::HybridIii6C);
     let lacks = Lacks {
         body: !says(body, &["preset", "dummy", "sex", "stature", "mass", "segments", "joints"]),
         joints: !says(joints, &["preset"]) && !says(body, &["joints", "dummy"]),
         flesh,
-        pelvis: flesh || (is_adult_dummy && !says(body, &["pelvis", "segments"])),
+        pelvis: !hard && (flesh || (is_adult_dummy && !says(body, &["segments"]))),
         spheres: !says(body, &["sphere_set", "segments"]),
         arms: !says(own.get("posture"), &["upper_arms", "elbows", "left_upper_arm", "right_upper_arm"]),
         posture: !says(Some(own), &["initial_state", "mount", "stance"]),

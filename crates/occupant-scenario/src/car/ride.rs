@@ -167,10 +167,13 @@ pub(super) const FILM_M: f64 = 0.03;
 const FILM_N: f64 = 3000.0;
 const UNLIMITED_N: f64 = 15_000.0;
 
+/// Number of segments of one or two occupants.
+pub(super) const SEGMENTS: usize = 19;
+
 /// Number of segments per occupant: all together at most 48.
 fn segment_count(riders: usize) -> usize {
     match riders {
-        0..=2 => 19,
+        0..=2 => SEGMENTS,
         3 => 15,
         _ => 12,
     }

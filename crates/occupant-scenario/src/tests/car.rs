@@ -94,6 +94,29 @@ fn dummies_sit_where_crash_tests_put_them() {
     assert!((person - ahead("passenger", "dummy = \"hybrid3_50m-like\"")).abs() < 1e-12);
 }
 
+/// What a person of a car has by default can be written down without a change, alone or together.
+#[test]
+fn a_default_that_is_written_down_changes_nothing() {
+    let of_body = |body: &str| build(&(of("") + "[body]\n" + body));
+    let plain = of_body("");
+    let all = ["segment_count = 19", "chest = \"person\"", "abdomen = \"person\"", "pelvis = \"flesh\""];
+    for body in all.into_iter().chain([all.join("\n").as_str()]) {
+        assert!(format!("{:?}", of_body(body)) == format!("{plain:?}"), "{body}");
+    }
+    assert!(format!("{:?}", of_body("pelvis = \"rigid\"")) != format!("{plain:?}"));
+}
+
+/// People of every mass that bodies are made for have a place in a car.
+#[test]
+fn heavy_people_can_sit_in_a_car() {
+    for (sex, stature, bmi) in
+        [("female", 1.65, 32.5), ("female", 1.5, 44.9), ("female", 2.05, 40.0), ("male", 1.75, 44.9)]
+    {
+        let mass = bmi * stature * stature;
+        build(&(of("") + &format!("[body]\nsex = \"{sex}\"\nstature = \"{stature} m\"\nmass = \"{mass} kg\"\n")));
+    }
+}
+
 #[test]
 fn a_sled_has_no_wheel_and_a_wheel_follows_its_driver() {
     let sled = build(&of("class = \"sled\""));

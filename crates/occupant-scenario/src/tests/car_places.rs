@@ -213,7 +213,7 @@ fn a_lap_belt_begins_where_it_is_said_and_a_tongue_can_clamp() {
     for (car, expected) in [
         ("[car.seats.driver]\nlap_above = \"9 cm\"", "on this pelvis"),
         ("[car.seats.driver]\nlap_above = \"1 m\"", "-10 cm to 15 cm"),
-        ("[car.seats.driver]\nlap_above = \"1 cm\"\n[body]\nchest = \"person\"", "`lap = \"wings\"`"),
+        ("[car.seats.driver]\nlap_above = \"1 cm\"\n[body]\npelvis = \"rigid\"", "`lap = \"wings\"`"),
         ("years = \"1980s\"", "\"1990s\""),
     ] {
         let said = complaint(&of(car));

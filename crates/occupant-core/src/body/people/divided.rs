@@ -49,6 +49,8 @@ const HAND: (f64, f64, f64) = (0.267, 2.28, 5.77);
 /// it is drawn.
 const CLAVICLE: (f64, [f64; 3], [[f64; 3]; 2]) = (0.05, [2.0, 1.5, 2.0], [[-0.8, 4.0, 3.9], [2.0, 0.9, 5.9]]);
 const CLAVICLE_HEIGHT: f64 = 2.0;
+/// Largest moment of inertia of a clavicle, relative to the sum of the other two; ours.
+const MOST_ABOUT_ONE: f64 = 0.99;
 
 impl Stretch {
     /// The parts, limbs on both sides, as separate segments and joints.
@@ -114,6 +116,8 @@ impl Stretch {
         let (share, gyration, [centre, _]) = CLAVICLE;
         let mass_kg = share * self.mass_kg[UT];
         let [x, y, z] = [0, 1, 2].map(|axis| mass_kg * self.along(UT, axis, gyration[axis]).powi(2));
+        // a heavy woman's chest grows more in depth than in width: no body has more about one axis than about both others
+        let x = x.min(MOST_ABOUT_ONE * (y + z));
         let cg_m = mirrored(self.on_clavicle(centre), side);
         let length_m = self.along(UT, 2, CLAVICLE_HEIGHT);
         SegmentProperties {
