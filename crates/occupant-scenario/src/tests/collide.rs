@@ -166,6 +166,20 @@ fn an_impact_that_does_not_act_is_told() {
     }
 }
 
+/// A vehicle that leaves a grid of heights is told; one that stays on it is not.
+#[test]
+fn who_leaves_a_grid_is_told() {
+    let with = |lengths: &str| {
+        let grid = format!(
+            "[drive.ground]\ngrid = {{ from = [-10, -10], step = [{lengths}], height = [[0, 0], [0, 0]] }}\n[drive.barriers.wall]"
+        );
+        told(&replaced(&replaced(&wall(), "[drive.barriers.wall]", &grid), "at = [\"2.5 m\", 0]", "at = [40, 0]"))
+    };
+    let leaves = with("12, 20");
+    assert!(leaves.contains("a wheel of car leaves the surveyed ground at 0.0") && leaves.contains("x 2."), "{leaves}");
+    assert!(!with("60, 20").contains("surveyed"), "{}", with("60, 20"));
+}
+
 /// Nothing moves a door in: who sits behind one that is pressed in is refused, until a panel is given.
 #[test]
 fn who_sits_within_the_crush_is_refused() {

@@ -218,6 +218,14 @@ impl Mesh {
         ((x_m - point.x) * normal.x + (y_m - point.y) * normal.y) / normal.z - point.z
     }
 
+    /// Whether a place lies within the corners that were given: those outside of them were added.
+    pub(super) fn is_given(&self, x_m: f64, y_m: f64) -> bool {
+        let (row, column) = self.cell(self.face_at(x_m, y_m));
+        let ends = matches!(self.place, Place::Grid { .. });
+        let is_inner = |i: usize, count: usize| i > 0 && i + 1 < count;
+        is_inner(column, self.across - 1) && (!ends || is_inner(row, self.rows() - 1))
+    }
+
     /// The face at a place, if its cell is flat and extends by a distance to all sides.
     pub(super) fn lone_face(&self, x_m: f64, y_m: f64, way_m: f64) -> Option<usize> {
         let face = self.face_at(x_m, y_m);

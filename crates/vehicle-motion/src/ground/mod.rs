@@ -226,6 +226,18 @@ impl Ground {
         }
     }
 
+    /// Whether the heights at a place were given: it lies within the rim of a grid, or between the first and the last
+    /// corner of a cross-section.
+    pub fn is_given(&self, x_m: f64, y_m: f64) -> bool {
+        match &self.shape {
+            Shape::Section(section) => {
+                let corners = &section.corners_m;
+                (corners[0][0]..=corners[corners.len() - 1][0]).contains(&y_m)
+            }
+            Shape::Mesh(mesh) => mesh.is_given(x_m, y_m),
+        }
+    }
+
     /// Upward normal at a place, vehicle-space.
     pub fn normal(&self, x_m: f64, y_m: f64) -> V3 {
         self.face_normal(self.face_at(x_m, y_m))
@@ -366,6 +378,24 @@ mod tests {
                 ground.height_m(0.0, right_m)
             );
         }
+    }
+
+    #[test]
+    fn heights_beyond_the_rim_are_not_given() {
+        let section = Ground::section(vec![[-2.0, 0.0], [3.0, 1.0]], 0.0).unwrap();
+        let grid = Ground::mesh(Mesh::grid([-1.0, -2.0], [1.0, 5.0], [3, 2], &[0.0; 6]).unwrap());
+        let stations = vec![Station { at_m: 0.0, corners_m: vec![[-2.0, 0.0], [3.0, 1.0]] }];
+        let line_m = vec![[0.0, 0.0], [50.0, 0.0]];
+        let road = Ground::mesh(Road { line_m, radius_m: 30.0, stations, grade: 0.0 }.mesh().unwrap());
+        for (y_m, is_given) in [(-2.1, false), (-1.9, true), (2.9, true), (3.1, false)] {
+            for ground in [&section, &grid, &road] {
+                assert_eq!(ground.is_given(0.0, y_m), is_given, "{y_m}");
+            }
+        }
+        // a grid ends ahead, too
+        let ahead = [&section, &grid, &road].map(|ground| ground.is_given(1.5, 0.0));
+        assert_eq!(ahead, [true, false, true]);
+        assert!(Ground::level().is_given(0.0, 900.0));
     }
 
     #[test]

@@ -193,8 +193,10 @@ impl Solved {
             let mut carry = cars.filter(|car| self.people.get(*car).is_some_and(Option::is_some));
             let acts = self.outcome.missed.iter().all(|missed| missed.impact != i);
             if let Some(car) = carry.next().filter(|_| acts) {
-                let found =
-                    format!("people in {}, whose speed jumps: no acceleration loads them", self.vehicles[car].name);
+                let found = format!(
+                    "people in {}, whose speed jumps: the acceleration that loads them is not defined",
+                    self.vehicles[car].name
+                );
                 let expected = "a duration above 0, such as \"0.1 s\"";
                 b.report(Problem::warning(format!("drive.impacts[{i}].duration"), found, expected));
             }
@@ -216,6 +218,23 @@ impl Solved {
                 Miss::Away { .. } => "`at` and `time` where both meet",
             };
             b.report(Problem::warning(format!("drive.impacts[{}]", missed.impact), found, expected));
+        }
+    }
+
+    /// Warns of vehicles that leave their grid of heights.
+    pub(super) fn warn_of_grid(&self, b: &mut Builder) {
+        for (own, ride) in self.vehicles.iter().zip(&self.outcome.rides) {
+            let beyond = |station: &Station| {
+                let mut rolls = station.wheels.iter().filter(|wheel| wheel.load_n > 0.0).map(|wheel| wheel.contact_m);
+                rolls.find(|at| !self.world.ground.is_given(at.x, at.y)).map(|at| (station.time_s, at))
+            };
+            let Some((time_s, place)) = ride.stations().iter().find_map(beyond) else { continue };
+            let found = format!(
+                "a wheel of {} leaves the surveyed ground at {time_s:.2} s, x {:.2} m, y {:.2} m",
+                own.name, place.x, place.y
+            );
+            let expected = "a larger grid: beyond its rim the ground is level outwards";
+            b.report(Problem::warning("drive.ground.grid", found, expected));
         }
     }
 
