@@ -108,7 +108,7 @@ impl Loaded {
         let (drives, mut problems) = solve(&self.explicit, &self.document, &people)?;
         let Some(drives) = drives else { return Ok((None, problems)) };
         let drives = self.passed(drives, &mut problems)?;
-        problems.extend(caveats(&self.document, &drives));
+        problems.extend(caveats(&self.explicit, &self.document, &drives));
         Ok((Some(drives), problems))
     }
 

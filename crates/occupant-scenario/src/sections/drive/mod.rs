@@ -239,12 +239,15 @@ pub(crate) fn solve(
 }
 
 /// Warnings about what happened in a drive.
-pub(crate) fn caveats(document: &Document, solved: &Solved) -> Diagnostics {
+pub(crate) fn caveats(s: &Scenario, document: &Document, solved: &Solved) -> Diagnostics {
     let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
     solved.warn_of_crush(b);
     solved.warn_of_rails(b);
     solved.warn_of_impacts(b);
-    solved.warn_of_ground(b);
+    let ground = s.drive.as_ref().and_then(|drive| drive.ground.as_ref());
+    if ground.is_some_and(|ground| ground.grid.is_some()) {
+        solved.warn_of_grid(b);
+    }
     std::mem::take(&mut b.problems)
 }
 

@@ -221,12 +221,8 @@ impl Solved {
         }
     }
 
-    /// Warns of vehicles that leave a grid of heights. The outer slopes of a cross-section are meant to continue.
-    pub(super) fn warn_of_ground(&self, b: &mut Builder) {
-        let at = "drive.ground.grid";
-        if !b.document.has(at) {
-            return;
-        }
+    /// Warns of vehicles that leave their grid of heights.
+    pub(super) fn warn_of_grid(&self, b: &mut Builder) {
         for (own, ride) in self.vehicles.iter().zip(&self.outcome.rides) {
             let beyond = |station: &Station| {
                 let mut rolls = station.wheels.iter().filter(|wheel| wheel.load_n > 0.0).map(|wheel| wheel.contact_m);
@@ -238,7 +234,7 @@ impl Solved {
                 own.name, place.x, place.y
             );
             let expected = "a larger grid: beyond its rim the ground is level outwards";
-            b.report(Problem::warning(at, found, expected));
+            b.report(Problem::warning("drive.ground.grid", found, expected));
         }
     }
 
