@@ -74,13 +74,13 @@ pub(crate) struct BodySection {
     /// "full". Half of it is twice as many spheres.
     pub(crate) sphere_spacing: Option<Ratio<POSITIVE>>,
     /// Compliance of the chest: "person", fitted to hub tests of cadavers and scaled by size; "dummy50", "dummy05f",
-    /// those of the Hybrid III dummies; or "rigid". "rigid" if absent. A seat back bears on the spine, where the chest
-    /// is always rigid.
+    /// those of the Hybrid III dummies; or "rigid". "person" in a car, else "rigid" if absent. A seat back
+    /// bears on the spine, where the chest is always rigid.
     pub(crate) chest: Option<ChestChoice>,
-    /// "flesh": tissue under a lap belt yields, with estimated values. "rigid" if absent.
+    /// "flesh": tissue under a lap belt yields, with estimated values. "flesh" in a car, else "rigid" if absent.
     pub(crate) pelvis: Option<PelvisChoice>,
     /// "person": an abdomen, as a sphere and a plate above the pelvis, which belts, rims and doors can load; fitted to
-    /// two values of belt pretensioner tests. "rigid", no abdomen, if absent.
+    /// two values of belt pretensioner tests. "person" in a car, else "rigid", no abdomen, if absent.
     pub(crate) abdomen: Option<AbdomenChoice>,
     /// Ribs, abdomen and pelvis under loads from the side: "person", whose ribs and abdomen yield as from the front; "es2", a side impact
     /// dummy; or "rigid". "rigid" if absent. With them the measures are those of a side impact. They need

@@ -18,6 +18,8 @@ const TURNED: [f64; 2] = [std::f64::consts::FRAC_1_SQRT_2, 0.965_925_826_289_068
 const SHORT_M: f64 = 0.05;
 /// Largest friction and initial tension without a warning.
 const MOST_FRICTION: f64 = 0.6;
+/// Friction from which webbing is meant to be clamped, as in a locking tongue.
+const CLAMPED: f64 = 3.0;
 const MOST_START_N: f64 = 100.0;
 
 pub(super) fn data(chains: &[Chain], body: &Body, problems: &mut Problems) {
@@ -116,11 +118,11 @@ fn nodes(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {
 fn one(node: &Node, body: &Body, at: &str, problems: &mut Problems) {
     problems.check_at_least_zero(&format!("{at}.friction"), node.friction, "1");
     problems.check_positive(&format!("{at}.strength"), node.strength_n, "N");
-    if node.friction > MOST_FRICTION {
+    if node.friction > MOST_FRICTION && node.friction < CLAMPED {
         problems.warning(
             format!("{at}.friction"),
             format!("{}", node.friction),
-            "0.1 to 0.6: webbing over steel or cloth",
+            "0.1 to 0.6: webbing over steel or cloth; 3 or more clamps it",
         );
     }
     if let (Site::Segment(segment, ..) | Site::Track(segment, _), false) = (&node.site, node.ride.is_empty()) {

@@ -144,7 +144,8 @@ impl<const TURNS: bool> Reported for Giving<TURNS> {
 
     #[inline(always)]
     fn track<S: Scalar>(c: &ColumnAction<S>, tracker: &mut impl Tracker<S>) {
-        tracker.numbers(&[c.stroke, c.force, c.taken, c.bottoms, c.residual]);
+        let force = if TURNS { c.force.abs() } else { c.force };
+        tracker.numbers(&[c.stroke, force, c.taken, c.bottoms, c.residual]);
     }
 
     fn keep(past: &mut Vec<ColumnPast<f64>>, like: Option<&[ColumnPast<f64>]>, file: &mut dyn Archive) {
