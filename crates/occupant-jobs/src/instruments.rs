@@ -25,8 +25,8 @@ const VECTORS: [(&str, Unit, bool); 7] = [
 const FEMURS: [&str; 2] = ["right_femur.axial", "left_femur.axial"];
 /// Number of vectors for which a resultant suffices.
 const ACCELERATIONS: usize = 3;
-/// Vectors of which measures use the resultant, or all axes.
-const WITH_RESULTANT: [&str; 5] = [VECTORS[0].0, VECTORS[1].0, VECTORS[2].0, VECTORS[3].0, VECTORS[4].0];
+/// Number of vectors of which measures need all axes; of the neck some do with one.
+const WHOLE: usize = 5;
 
 /// Destination of a signal.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +93,7 @@ impl Instruments {
         }
         let signals = Signals { start_s: first.time_s[0] + shift_s, interval_s, ..filled(&found, &goals) };
         let read: Vec<_> = found.iter().map(|pair| (goals[pair.channel].0.clone(), pair.signal.clone())).collect();
-        notes.extend(WITH_RESULTANT.iter().filter_map(|name| incomplete(name, &read)));
+        notes.extend(VECTORS[..WHOLE].iter().filter_map(|(name, ..)| incomplete(name, &read)));
         Ok(Instruments { signals, read, notes })
     }
 
@@ -110,7 +110,7 @@ fn incomplete(name: &str, read: &[(String, String)]) -> Option<String> {
     let missing: Vec<&str> = [".x", ".y", ".z"].into_iter().filter(|axis| !has(axis)).collect();
     let is_part = (1..3).contains(&missing.len()) && !has(".resultant");
     is_part.then(|| {
-        format!("{name} has no {}: measures of its resultant are left out", missing.join(", ").replace('.', ""))
+        format!("{name} has no {}: measures that need all its axes are left out", missing.join(", ").replace('.', ""))
     })
 }
 

@@ -279,8 +279,8 @@ pub fn sampled(track: Track<'_>, from_s: f64, to_s: f64, samples: usize, what: &
 /// The first place where a sampled signal lacks rows. A single one may be the clock's rounding, and points read from a drawing
 /// may be far apart.
 fn missing_rows(time_s: &[f64]) -> Option<Hole> {
-    let most_s = 2.5 * usual_interval(time_s);
-    holes(time_s).into_iter().find(|hole| is_sampled(time_s) && hole.length_s() > most_s)
+    let found = if is_sampled(time_s) { holes(time_s) } else { Vec::new() };
+    found.into_iter().find(|hole| hole.length_s() > 2.5 * usual_interval(time_s))
 }
 
 #[cfg(test)]

@@ -156,13 +156,13 @@ fn meet<S: Scalar>(caps: &[Cap<S>], face: Option<S>, shares: &mut [Share<S>], pa
             if !S::any(meets) {
                 continue;
             }
-            let longest = S::select(squared.gt(o), d * S::of(MOST_ASIDE * MOST_ASIDE), o);
+            let longest = d * S::of(MOST_ASIDE * MOST_ASIDE);
             let d = d.sqrt();
             let [volume, by_one, by_two, by_d] = common(one, two, face, d);
             let (volume, by_d) = (S::select(meets, volume, o), S::select(meets, by_d, o));
             let (by_one, by_two) = (S::select(meets, by_one, o), S::select(meets, by_two, o));
-            let by_depth = [by_one, by_two];
-            pairs[count] = Pair { of: [k, l], volume, by_depth, by_distance: by_d / d, longest };
+            let (by_depth, by_distance) = ([by_one, by_two], S::select(squared.gt(o), by_d / d, o));
+            pairs[count] = Pair { of: [k, l], volume, by_depth, by_distance, longest };
             count += 1;
             for (i, cap) in [(k, one), (l, two)] {
                 let part = S::select(meets, volume / cap.volume, o);
